@@ -204,7 +204,7 @@ class FrozenSolver {
     const Vector charge = relaxes_charge(frozen_.model) ? Vector(weighted(membrane(0), result.charge))
                                                         : conductivity_contrast(in_field_[0].electric) *
                                                               charge_densities({potential})[0].weighted;
-    const PotentialSources sources{in_field_[0].electric.field, potential, charge};
+    const PotentialSources sources{in_field_[0].electric.field, potential, charge, frozen_.model.wall};
     const auto at = [&](const Matrix& points) {
       PotentialSamples found =
           potential_at(points, Side::principal_value, state_.vesicles.front().position, sources, {}, instruments_);
@@ -215,8 +215,8 @@ class FrozenSolver {
 
   void sample_velocity(CheckFields& result, const Matrix& force) {
     const auto background = [gradient = flow_gradient(frozen_)](const Vector3& x) -> Vector3 { return gradient * x; };
-    const VelocitySources sources{frozen_.model.viscosity, background, weighted(membrane(0), force),
-                                  model(0).viscosity_ratio, result.velocity};
+    const VelocitySources sources{frozen_.model.viscosity,  background,      weighted(membrane(0), force),
+                                  model(0).viscosity_ratio, result.velocity, frozen_.model.wall};
     const auto at = [&](const Matrix& points) {
       VelocitySamples found = velocity_at(points, state_.vesicles.front().position, sources, {}, instruments_);
       return SampleValues{std::move(found.velocity), std::move(found.side)};

@@ -100,7 +100,8 @@ std::string difference_text(const Scene& scene, const Model& model, const Model&
 
 /// Of each way that layers between vesicles take, the targets at the start.
 std::map<std::string, std::uint64_t> pair_targets_of(const Problem& problem, const MembraneSpace& space) {
-  if (problem.start.size() < 2) return {};
+  const std::optional<Wall>& wall = problem.model.wall;
+  if (problem.start.size() < 2 && !wall) return {};
   std::vector<Matrix> positions;
   for (const StartMembrane& start : problem.start) {
     positions.push_back(resize_order(start.position, problem.settings.order));
@@ -111,7 +112,8 @@ std::map<std::string, std::uint64_t> pair_targets_of(const Problem& problem, con
   Instruments instruments;
   const Exchange& exchange = problem.symmetry.exchange;
   const Interaction sorted(membranes, pair_settings(problem.settings), instruments,
-                           Shares({}, std::vector<double>(membranes.size(), 1.0), exchange.originals()), exchange);
+                           Shares({}, std::vector<double>(membranes.size(), 1.0), exchange.originals()), exchange, {},
+                           wall);
   return instruments.pair_targets();
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "bie/physics/wall_images.hpp"
 #include "bie/potentials/far_expansions.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/parallel.hpp"
@@ -39,16 +40,28 @@ struct NearNodes {
   std::vector<Use> uses;
 };
 
+/// Layers of all membranes at nodes that are near to them.
+struct NearLayers {
+  std::vector<std::vector<NearNodes>> near;  ///< of each membrane those that its layers serve
+  /// Of each membrane of this rank at the nodes of these, one after the other; where there are none, nothing.
+  std::vector<std::optional<PairLayers>> layers;
+};
+
+/// Normals turn with the points.
+TargetNodes mirrored(const Wall& wall, const TargetNodes& nodes) {
+  return {mirrored(wall, nodes.points), nodes.area_vectors * wall.mirror()};
+}
+
 }  // namespace
 
 struct Interaction::Parts {
   Shares shares;
   Exchange exchange;
-  std::vector<SphereTransform> targets;      ///< of each membrane
-  std::vector<std::vector<NearNodes>> near;  ///< of each membrane the others that its layers serve
-  /// Of each membrane of this rank at the nodes of these, one after the other.
-  std::vector<std::optional<PairLayers>> layers;
-  std::optional<FarExpansions> expansions;  ///< for all others, where there are any
+  std::vector<SphereTransform> targets;     ///< of each membrane
+  NearLayers direct;                        ///< on others
+  std::optional<FarExpansions> expansions;  ///< for all others that these leave, where there are any
+  std::optional<Wall> wall;
+  NearLayers of_images;  ///< at mirrored nodes of all, for the images in the wall
 
   [[nodiscard]] std::size_t n() const { return targets.size(); }
   /// Those of this rank.
@@ -69,36 +82,49 @@ struct Interaction::Parts {
         values.emplace_back(Matrix::Zero(nodes.grid().n_points(), is_stokes(layer) ? 3 : 1));
       }
     }
-    std::vector<Matrix> from(n());
-    for_each_membrane([&](std::size_t b) {
-      if (densities[b].size() > 0 && !near[b].empty()) from[b] = layers[b]->apply(layer, densities[b]);
-    });
-    std::vector<Matrix> of_images(n());
-    add_near(from, values, of_images);
+    std::vector<Matrix> by_exchange(n());
+    add_near(direct, near_values(direct, layer, densities), values, by_exchange);
+    if (wall && has_image(*wall, layer)) {
+      std::vector<Matrix> from = near_values(of_images, layer_of_image(*wall, layer), densities);
+      for (Matrix& of_one : from) of_one = mirrored_back(*wall, layer, of_one);
+      add_near(of_images, from, values, by_exchange);
+    }
     std::vector<Field> result(n());
     for_each_membrane([&](std::size_t a) {
       result[a] = targets[a].analyze(values[a]);
-      if (of_images[a].size() > 0) result[a] += of_images[a];
+      if (by_exchange[a].size() > 0) result[a] += by_exchange[a];
     });
     return result;
   }
 
+  /// What each membrane of this rank does at the nodes near to it; empty of empty densities.
+  template <class Field>
+  [[nodiscard]] std::vector<Matrix> near_values(const NearLayers& near, PairLayer layer,
+                                                const std::vector<Field>& densities) const {
+    std::vector<Matrix> from(n());
+    for_each_membrane([&](std::size_t b) {
+      if (densities[b].size() > 0 && near.layers[b]) from[b] = near.layers[b]->apply(layer, densities[b]);
+    });
+    return from;
+  }
+
   /// Adds what each membrane does to those near to it, in the order of the sources.
-  /// @param from       of the membranes of this rank
-  /// @param values     there it is added at nodes
-  /// @param of_images  there, in coefficients, what images do
-  void add_near(const std::vector<Matrix>& from, std::vector<Matrix>& values, std::vector<Matrix>& of_images) const {
+  /// @param from         of the membranes of this rank
+  /// @param values       there it is added at nodes
+  /// @param by_exchange  there, in coefficients, what membranes do that are images of others
+  void add_near(const NearLayers& near, const std::vector<Matrix>& from, std::vector<Matrix>& values,
+                std::vector<Matrix>& by_exchange) const {
     const auto add = [&](std::size_t a, bool by_image, const auto& block) {
       if (!by_image) {
         values[a] += block;
-      } else if (of_images[a].size() == 0) {
-        of_images[a] = block;
+      } else if (by_exchange[a].size() == 0) {
+        by_exchange[a] = block;
       } else {
-        of_images[a] += block;
+        by_exchange[a] += block;
       }
     };
     std::vector<Packing> to(static_cast<std::size_t>(shares.ranks().size()));
-    for_each_block(from, [&](std::size_t a, bool by_image, const auto& block) {
+    for_each_block(near, from, [&](std::size_t a, bool by_image, const auto& block) {
       if (!shares.owns(a)) to[static_cast<std::size_t>(shares.owner(a))](a, by_image, Matrix(block));
     });
     std::vector<std::string> parcels;
@@ -106,7 +132,7 @@ struct Interaction::Parts {
     parcels = shares.ranks().exchange(parcels);
     for (int rank = 0; rank < shares.ranks().size(); ++rank) {
       if (rank == shares.ranks().rank()) {
-        for_each_block(from, [&](std::size_t a, bool by_image, const auto& block) {
+        for_each_block(near, from, [&](std::size_t a, bool by_image, const auto& block) {
           if (shares.owns(a)) add(a, by_image, block);
         });
       }
@@ -124,11 +150,11 @@ struct Interaction::Parts {
   /// body(target, false, values there) for all targets near to all sources, in the order of the sources, and
   /// body(target, true, coefficients there) for what their images do to targets.
   template <class Body>
-  void for_each_block(const std::vector<Matrix>& from, const Body& body) const {
+  void for_each_block(const NearLayers& near, const std::vector<Matrix>& from, const Body& body) const {
     for (std::size_t b = 0; b < n(); ++b) {
       if (from[b].size() == 0) continue;
       Index first = 0;
-      for (const NearNodes& nodes : near[b]) {
+      for (const NearNodes& nodes : near.near[b]) {
         const Index count = targets[nodes.at].grid().n_points();
         const auto block = from[b].middleRows(first, count);
         for (const Use& use : nodes.uses) {
@@ -145,22 +171,23 @@ struct Interaction::Parts {
     }
   }
 
-  /// What the membranes of this rank have to be known for at the nodes of others.
-  /// @param is_far  (target, source): others serve that pair
-  template <class IsFar>
-  void find_near(const IsFar& is_far) {
-    near.resize(n());
+  /// What the membranes of this rank have to be known for at the nodes of others, or at mirrored ones of all.
+  /// @param serves  (target, source): is that pair among them?
+  template <class Serves>
+  [[nodiscard]] std::vector<std::vector<NearNodes>> find_near(const Serves& serves) const {
+    std::vector<std::vector<NearNodes>> near(n());
     for (std::size_t b = 0; b < n(); ++b) {
       if (!shares.owns(b)) continue;
       std::map<std::size_t, std::vector<Use>> uses;
       for (std::size_t c = 0; c < n(); ++c) {
         if (exchange.original(c) != b) continue;
         for (std::size_t a = 0; a < n(); ++a) {
-          if (a != c && !exchange.is_image(a) && !is_far(a, c)) uses[exchange.preimage(c, a)].push_back({a, c});
+          if (!exchange.is_image(a) && serves(a, c)) uses[exchange.preimage(c, a)].push_back({a, c});
         }
       }
       for (auto& [at, all] : uses) near[b].push_back({at, std::move(all)});
     }
+    return near;
   }
 
   [[nodiscard]] std::vector<Vector> fluxes(PairLayer layer, const std::vector<Vector>& densities) const {
@@ -173,10 +200,12 @@ struct Interaction::Parts {
 };
 
 Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings,
-                         Instruments& instruments, Shares shares, Exchange exchange, SharedTransforms transforms) {
+                         Instruments& instruments, Shares shares, Exchange exchange, SharedTransforms transforms,
+                         const std::optional<Wall>& wall) {
   auto parts = std::make_unique<Parts>();
   parts->shares = std::move(shares);
   parts->exchange = std::move(exchange);
+  parts->wall = wall;
   PairSettings of_one = settings;
   of_one.row_bytes /= static_cast<double>(parts->exchange.n_originals(membranes.size()));
   std::vector<TargetNodes> nodes;
@@ -192,26 +221,39 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
     }
     parts->expansions.emplace(expanded, settings.tolerance, transforms, parts->shares);
   }
-  parts->find_near([&](std::size_t a, std::size_t b) { return parts->expansions && parts->expansions->is_far(a, b); });
-  for (std::size_t b = 0; b < membranes.size(); ++b) {
-    std::optional<PairLayers>& layers = parts->layers.emplace_back();
-    if (!parts->shares.owns(b)) continue;
+  /// Of one membrane at nodes near to it.
+  const auto add_layers = [&](NearLayers& near, std::size_t b, const std::vector<TargetNodes>& at,
+                              const PairSelection& selection, const MirrorPlane& plane, const char* other) {
+    std::optional<PairLayers>& layers = near.layers.emplace_back();
     Index n_near = 0;
-    for (const NearNodes& near : parts->near[b]) n_near += nodes[near.at].points.rows();
-    TargetNodes others{Matrix(n_near, 3), Matrix(n_near, 3)};
+    for (const NearNodes& one : near.near[b]) n_near += at[one.at].points.rows();
+    if (n_near == 0) return;
+    TargetNodes all{Matrix(n_near, 3), Matrix(n_near, 3)};
     Index first = 0;
-    for (const NearNodes& near : parts->near[b]) {
-      const TargetNodes& there = nodes[near.at];
-      others.points.middleRows(first, there.points.rows()) = there.points;
-      others.area_vectors.middleRows(first, there.points.rows()) = there.area_vectors;
+    for (const NearNodes& one : near.near[b]) {
+      const TargetNodes& there = at[one.at];
+      all.points.middleRows(first, there.points.rows()) = there.points;
+      all.area_vectors.middleRows(first, there.points.rows()) = there.area_vectors;
       first += there.points.rows();
     }
     try {
-      layers.emplace(membranes[b].position, others.points, others.area_vectors, membranes[b].selection, of_one,
-                     transforms, instruments);
+      layers.emplace(membranes[b].position, all.points, all.area_vectors, selection, of_one, transforms, instruments,
+                     plane);
     } catch (const ConvergenceError& error) {
-      throw ConvergenceError(
-          fmt::format("membrane {} of {} and another one: {}", b + 1, membranes.size(), error.what()));
+      throw ConvergenceError(fmt::format("membrane {} of {} and {}: {}", b + 1, membranes.size(), other, error.what()));
+    }
+  };
+  parts->direct.near = parts->find_near(
+      [&](std::size_t a, std::size_t b) { return a != b && !(parts->expansions && parts->expansions->is_far(a, b)); });
+  for (std::size_t b = 0; b < membranes.size(); ++b) {
+    add_layers(parts->direct, b, nodes, membranes[b].selection, {}, "another one");
+  }
+  if (wall) {
+    for (TargetNodes& there : nodes) there = mirrored(*wall, there);
+    parts->of_images.near = parts->find_near([](std::size_t, std::size_t) { return true; });
+    for (std::size_t b = 0; b < membranes.size(); ++b) {
+      add_layers(parts->of_images, b, nodes, selection_of_image(*wall, membranes[b].selection),
+                 {wall->point, wall->normal}, "the wall");
     }
   }
   parts_ = std::move(parts);
@@ -253,11 +295,13 @@ std::vector<Matrix> Interaction::stokes_double(const std::vector<Matrix>& veloci
 
 PairCounts Interaction::counts() const {
   PairCounts all;
-  for (const std::optional<PairLayers>& layers : parts_->layers) {
-    if (!layers) continue;
-    all.far += layers->counts().far;
-    all.near += layers->counts().near;
-    all.far_nodes += layers->counts().far_nodes;
+  for (const NearLayers* near : {&parts_->direct, &parts_->of_images}) {
+    for (const std::optional<PairLayers>& layers : near->layers) {
+      if (!layers) continue;
+      all.far += layers->counts().far;
+      all.near += layers->counts().near;
+      all.far_nodes += layers->counts().far_nodes;
+    }
   }
   if (parts_->expansions) all.expanded = parts_->expansions->n_targets();
   return all;

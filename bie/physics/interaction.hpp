@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "bie/physics/wall.hpp"
 #include "bie/potentials/pair_layers.hpp"
 #include "bie/sphere/exchange.hpp"
 #include "bie/sphere/transform.hpp"
@@ -28,28 +30,34 @@ struct InteractingMembrane {
 /// Of several ranks each has the layers of its own membranes: of densities it needs theirs, and of results it gets
 /// theirs, the others stay empty. All calls are collective then. The sums have the same bits for any number of ranks.
 ///
+/// Beside a wall each membrane has an image beyond it, which acts on all membranes, the one itself included; its layers
+/// are those of the membrane at mirrored nodes, see wall_images.hpp.
+///
 /// Where membranes with all that is on them are images of others nothing is computed for the images: of densities it
 /// needs those of the originals, and of results it gives theirs.
 /// Accuracy: that of PairLayers at the nodes, and what the degree of the target leaves out of the sums; Green's
 /// identity between two shapes without symmetry, nine membranes as the sums of their pairs to 1e-9
 /// (tests/physics/interaction_test.cpp)
-/// Source: paper Eqs. (6), (8), (9) with source and target on different membranes
+/// Beside a wall two mirrored membranes to 1e-9, Green's identities without slip (tests/physics/wall_test.cpp)
+/// Source: paper Eqs. (6), (8), (9) with source and target on different membranes; no_slip_flow
 class Interaction {
  public:
-  /// Of one membrane alone: it is empty, and this process has the membrane.
+  /// Of one membrane alone in unbounded fluid: it is empty, and this process has the membrane.
   Interaction();
   /// @param settings     memory for rows is that of all
   /// @param instruments  targets of all pairs are counted there, of the membranes of this rank
   /// @param exchange     which membranes are images of others, as the shares have it; most_summed_membranes then
   /// @param transforms   those known already; others are made
+  /// @param wall         beside the membranes, or none; at a gap of rounding a membrane meets its image
   /// @throws ConvergenceError if two membranes intersect or are too near for any rule, on the rank of one of them
   Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings, Instruments& instruments,
-              Shares shares = {}, Exchange exchange = {}, SharedTransforms transforms = {});
+              Shares shares = {}, Exchange exchange = {}, SharedTransforms transforms = {},
+              const std::optional<Wall>& wall = {});
 
   ~Interaction();
   Interaction(Interaction&&) noexcept;
 
-  /// Is there no membrane that acts on another one?
+  /// Is there no membrane that acts on another one or, by way of a wall, on itself?
   [[nodiscard]] bool is_empty() const;
   /// Which membranes are whose.
   [[nodiscard]] const Shares& shares() const;

@@ -41,6 +41,8 @@ class MembraneFlow {
   [[nodiscard]] const Shares& shares() const { return interaction_.shares(); }
   /// Which membranes are images of others.
   [[nodiscard]] const Exchange& exchange() const { return interaction_.exchange(); }
+  /// Is there a membrane that moves another one or, by way of a wall, itself?
+  [[nodiscard]] bool interacts() const { return !interaction_.is_empty(); }
   /// Velocities of the membranes under forces on the fluid, coefficients.
   /// @param weighted    of J f, [n_coefficients x 3]; empty ones are zero
   /// @param background  v_∞ on each, or nothing

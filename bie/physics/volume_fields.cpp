@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "bie/physics/wall_images.hpp"
+#include "bie/potentials/pair_layers.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -23,8 +25,8 @@ PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& pos
   densities.laplace_single = or_zero(sources.weighted_charge, position, 1);
   densities.laplace_double = or_zero(sources.transmembrane_potential, position, 1);
   densities.gradients = true;
-  OffSurfaceValues layers =
-      OffSurfaceLayers(position, std::move(densities), settings).evaluate(points, side, instruments);
+  const OffSurfaceLayers of_membrane(position, std::move(densities), settings);
+  OffSurfaceValues layers = of_membrane.evaluate(points, side, instruments);
   require_resolved(layers, points);
   PotentialSamples samples;
   samples.potential = layers.laplace_single.values - layers.laplace_double.values - points * sources.field;
@@ -32,10 +34,41 @@ PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& pos
   samples.field.rowwise() += sources.field.transpose();
   samples.potential_error = layers.laplace_single.error + layers.laplace_double.error;
   samples.field_error = layers.laplace_single_gradient.error + layers.laplace_double_gradient.error;
+  if (sources.wall && has_image(*sources.wall, PairLayer::laplace_single)) {
+    const Wall& wall = *sources.wall;
+    const OffSurfaceValues there = of_membrane.evaluate(mirrored(wall, points), Side::exterior, instruments);
+    require_resolved(there, points);
+    const Matrix potential = there.laplace_single.values - there.laplace_double.values;
+    const Matrix field = there.laplace_double_gradient.values - there.laplace_single_gradient.values;
+    samples.potential += mirrored_back(wall, PairLayer::laplace_single, potential);
+    samples.field += mirrored_back(wall, PairLayer::laplace_single, field) * wall.mirror();
+    samples.potential_error += there.laplace_single.error + there.laplace_double.error;
+    samples.field_error += there.laplace_single_gradient.error + there.laplace_double_gradient.error;
+  }
   samples.side = std::move(layers.side);
   samples.distance = std::move(layers.distance);
   return samples;
 }
+
+namespace {
+
+/// What the image in a wall adds to w.
+Matrix flow_of_image(const Wall& wall, const Matrix& points, const Matrix& position, const VelocitySources& sources,
+                     Instruments& instruments) {
+  const double ratio = sources.viscosity_ratio;
+  const PairSelection selection{.stokes_single = true, .stokes_double = ratio != 1.0};
+  SharedTransforms transforms;
+  const PairLayers layers(position, mirrored(wall, points), Matrix::Zero(points.rows(), 3),
+                          selection_of_image(wall, selection), {}, transforms, instruments, {wall.point, wall.normal});
+  const auto image = [&](PairLayer layer, const Matrix& density) {
+    return mirrored_back(wall, layer, layers.apply(layer_of_image(wall, layer), density));
+  };
+  Matrix flow = image(PairLayer::stokes_single, or_zero(sources.weighted_force, position, 3)) / sources.viscosity;
+  if (ratio != 1.0) flow += (1.0 - ratio) * image(PairLayer::stokes_double, sources.membrane_velocity);
+  return flow;
+}
+
+}  // namespace
 
 VelocitySamples velocity_at(const Matrix& points, const Matrix& position, const VelocitySources& sources,
                             const OffSurfaceSettings& settings, Instruments& instruments) {
@@ -52,6 +85,9 @@ VelocitySamples velocity_at(const Matrix& points, const Matrix& position, const 
   samples.velocity = layers.stokes_single.values / sources.viscosity;
   for (Index i = 0; sources.background && i < points.rows(); ++i) {
     samples.velocity.row(i) += sources.background(points.row(i).transpose()).transpose();
+  }
+  if (sources.wall && has_image(*sources.wall, PairLayer::stokes_single)) {
+    samples.velocity += flow_of_image(*sources.wall, points, position, sources, instruments);
   }
   samples.velocity_error = layers.stokes_single.error / sources.viscosity;
   if (ratio != 1.0) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "bie/physics/wall.hpp"
 #include "bie/potentials/off_surface.hpp"
 
 namespace vehd {
@@ -12,6 +14,7 @@ struct PotentialSources {
   Vector3 field = Vector3::Zero();  ///< E_∞
   Vector transmembrane_potential;   ///< V_m
   Vector weighted_charge;           ///< J q, q = [[∂φ/∂n]] = η g
+  std::optional<Wall> wall{};       ///< in which all that is an image
 };
 
 /// The potential and its field at points off the membrane.
@@ -27,7 +30,7 @@ struct PotentialSamples {
 /// φ(x) = −E_∞·x + S[q](x) − D[V_m](x), Eq. (11) off the membrane: φ jumps there by V_m, ∂φ/∂n by q (interior minus
 /// exterior), and φ → −E_∞·x far away.
 /// @param position  coefficients of the membrane, [n_coefficients x 3]
-/// @param points    [n_points x 3], inside and outside at any distance
+/// @param points    [n_points x 3], inside and outside at any distance, on the fluid's side of a wall
 /// @param side      limit taken at points on the membrane; its principal value is the mean of both
 /// @throws ConvergenceError if the quadrature is not resolved at some point
 /// Accuracy: docs/near_membrane.md Potential and field around a sphere to 1e-9, inside a 2:1 prolate to 1e-8
@@ -43,6 +46,7 @@ struct VelocitySources {
   Matrix weighted_force;         ///< J f, f = f_b + f_λ − f_E acting on the fluid, coefficients [n_coefficients x 3]
   double viscosity_ratio = 1.0;  ///< inside over outside, > 0
   Matrix membrane_velocity;      ///< v on γ, coefficients [n_coefficients x 3]; read where the ratio is not 1
+  std::optional<Wall> wall{};    ///< in which both layers have images
 };
 
 /// The velocity at points off the membrane.
@@ -59,7 +63,7 @@ struct VelocitySamples {
 /// points on it need no side. Where Λ is small, errors of w count 1/Λ times inside.
 /// @throws ConvergenceError if the quadrature is not resolved at some point
 /// @throws InputError unless Λ > 0
-/// @param points    [n_points x 3]
+/// @param points    [n_points x 3], on the fluid's side of a wall
 /// @param position  coefficients of the membrane, [n_coefficients x 3]
 /// Accuracy: that of the densities at degree p; around a translating sphere to 1e-10, around a 2:1 prolate to 1e-7, a
 /// flow common to two fluids to 1e-5 at p = 24 (tests/physics/volume_fields_test.cpp)

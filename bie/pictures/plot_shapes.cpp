@@ -22,6 +22,7 @@ constexpr int picture_grid_order = 95;
 constexpr double cell_margin = 1.03;
 constexpr double time_size = 8.5;
 constexpr const char* cut_colour = "#202020";
+constexpr const char* wall_colour = "#606060";
 
 /// Everything that is known about a picture before its parts have places.
 struct ShapesPicture {
@@ -71,11 +72,31 @@ ColourRange range_of(const std::vector<Shape>& shapes, ShapeField field) {
   return robust_range(reaches, label_of(field).sign_matters);
 }
 
-ShapesContent content_of(const ShapesPicture& picture, const std::vector<KeyItem>& items, double page_width) {
+/// From the middle of a shape to a wall that is seen edge on, and not farther than the shape is large.
+std::optional<Eigen::Vector2d> foot_on_wall(const Scene& scene, const Shape& shape, const Matrix3& view) {
+  constexpr double edge_on = 0.05, farthest = 2.0;
+  if (!scene.wall) return std::nullopt;
+  const Vector3 normal = vector_of(scene.wall->normal).normalized(), seen = view * normal;
+  const Eigen::Vector2d foot = normal.dot(vector_of(scene.wall->point) - shape.centre) * seen.head<2>();
+  if (std::abs(seen.z()) > edge_on || foot.norm() > farthest * projected_extent(shape.mesh, view).norm()) {
+    return std::nullopt;
+  }
+  return foot;
+}
+
+/// Half width and half height of a shape with such a wall about its middle, and some room.
+Eigen::Vector2d extent_of(const Scene& scene, const Shape& shape, const Matrix3& view) {
+  Eigen::Vector2d extent = projected_extent(shape.mesh, view);
+  if (const auto foot = foot_on_wall(scene, shape, view)) extent = extent.cwiseMax(foot->cwiseAbs());
+  return cell_margin * extent;
+}
+
+ShapesContent content_of(const ShapesPicture& picture, const Scene& scene, const std::vector<KeyItem>& items,
+                         double page_width) {
   ShapesContent content;
   content.label_width = picture.label_room;
   for (const Shape& shape : picture.shapes) {
-    const Eigen::Vector2d extent = cell_margin * projected_extent(shape.mesh, picture.view);
+    const Eigen::Vector2d extent = extent_of(scene, shape, picture.view);
     content.half_extents.push_back({std::max(extent.x(), picture.room[0]), std::max(extent.y(), picture.room[1])});
   }
   for (const std::string& text : picture.times) {
@@ -97,9 +118,19 @@ void add_cut(Page& page, const Shape& shape, const Matrix3& view, const Box& cel
   }
 }
 
+/// A wall as the line through its foot that crosses the cell.
+void add_wall(Page& page, const Eigen::Vector2d& foot, const Box& cell, double scale) {
+  const Eigen::Vector2d middle(0.5 * (cell.left + cell.right), 0.5 * (cell.bottom + cell.top));
+  const Eigen::Vector2d along = Eigen::Vector2d(-foot.y(), foot.x()).normalized();
+  const Eigen::Vector2d half_cell(0.5 * cell.width(), middle.y() - cell.bottom);
+  const double reach = half_cell.cwiseQuotient(along.cwiseAbs().cwiseMax(1e-9)).minCoeff();
+  const Eigen::Vector2d at = middle + scale * foot, from = at - reach * along, to = at + reach * along;
+  page.lines.push_back({{{from.x(), from.y()}, {to.x(), to.y()}}, 1.4, wall_colour, false});
+}
+
 Page page_of(const ShapesPicture& picture, const Scene& scene, const ShapesStyle& style) {
   const std::vector<KeyItem> items = key_items(scene);
-  const ShapesLayout layout = layout_of(content_of(picture, items, style.width));
+  const ShapesLayout layout = layout_of(content_of(picture, scene, items, style.width));
   Page page{layout.width, layout.height};
   const int n_shapes = static_cast<int>(picture.shapes.size());
   page.images.resize(picture.shapes.size());
@@ -113,6 +144,9 @@ Page page_of(const ShapesPicture& picture, const Scene& scene, const ShapesStyle
   }
   for (std::size_t i = 0; i < picture.shapes.size(); ++i) {
     if (style.section) add_cut(page, picture.shapes[i], picture.view, layout.cells[i], layout.scale);
+    if (const auto foot = foot_on_wall(scene, picture.shapes[i], picture.view)) {
+      add_wall(page, *foot, layout.cells[i], layout.scale);
+    }
     page.texts.push_back({picture.times[i], layout.labels[i], time_size, TextAnchor::centre, "#000000"});
   }
   const KeyTask key{scene, picture.view, layout.scale, picture.length};
@@ -207,7 +241,7 @@ FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::
   frame.view = view_of(task.style, scene, shapes.front());
   frame.length = shown_unit(units, "length");
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const Eigen::Vector2d extent = cell_margin * cell_margin * projected_extent(shapes[i].mesh, frame.view);
+    const Eigen::Vector2d extent = cell_margin * extent_of(scene, shapes[i], frame.view);
     frame.room = {std::max(frame.room[0], extent.x()), std::max(frame.room[1], extent.y())};
     frame.label_room = std::max(frame.label_room, time_size * text_width(texts[i]));
   }

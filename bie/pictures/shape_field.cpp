@@ -219,8 +219,8 @@ Shape shape_of(const ShapeCoefficients& read, ShapeField field, int grid_order) 
   for (const VesicleCoefficients& vesicle : read.vesicles) append(shape, shape_of(vesicle, field, grid_order));
   shape.time = read.time;
   Matrix& points = shape.mesh.points;
-  const Vector3 centre = points.transpose() * shape.weights / shape.weights.sum();
-  points.rowwise() -= centre.transpose();
+  shape.centre = points.transpose() * shape.weights / shape.weights.sum();
+  points.rowwise() -= shape.centre.transpose();
   shape.gyration = points.transpose() * shape.weights.asDiagonal() * points / shape.weights.sum();
   return shape;
 }

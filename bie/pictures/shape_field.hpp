@@ -68,6 +68,7 @@ struct Shape {
   Vector values;     ///< of the field, in numbers of the scene; zero without one
   Vector weights;    ///< area that each value stands for
   Matrix3 gyration;  ///< mean of x x^T over the area
+  Vector3 centre;    ///< where that centroid is
 };
 
 /// Data of one vesicle for a picture.

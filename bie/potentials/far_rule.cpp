@@ -48,6 +48,31 @@ struct DoubleNormal {
   }
 };
 
+constexpr auto kStokeslet =
+    [](const NodeSeparation& r, const Few& fx, const Few& fy, const Few& fz) __attribute__((always_inline)) {
+  return stokeslet_flow(r.x, r.y, r.z, r.inverse, fx, fy, fz);
+};
+constexpr auto kStresslet =
+    [](const NodeSeparation& r, const Few& vx, const Few& vy, const Few& vz) __attribute__((always_inline)) {
+  return stokes_double_flow(r.x, r.y, r.z, r.source(), r.inverse, vx, vy, vz);
+};
+
+struct ImageOfForces {
+  MirroredTarget mirrored;
+  [[gnu::always_inline]] std::array<Few, 3> operator()(const NodeSeparation& r, const Few& fx, const Few& fy,
+                                                       const Few& fz) const {
+    return no_slip_flow(mirrored, r.x, r.y, r.z, r.inverse, fx, fy, fz);
+  }
+};
+
+struct ImageOfVelocities {
+  MirroredTarget mirrored;
+  [[gnu::always_inline]] std::array<Few, 3> operator()(const NodeSeparation& r, const Few& vx, const Few& vy,
+                                                       const Few& vz) const {
+    return no_slip_double_flow(mirrored, r.x, r.y, r.z, r.inverse, r.nx, r.ny, r.nz, vx, vy, vz);
+  }
+};
+
 /// Σ over the nodes, times the prefactor, for some targets at once: each node is then read once for all of them.
 template <Index kTargets, int kComponents, class Term>
 void sum_nodes(const Matrix& at, const Matrix& points, Index first, double prefactor, const Term& term,
@@ -94,13 +119,13 @@ Vector scalar_sums(const Matrix& at, const Matrix& points, const Matrix& charges
       });
 }
 
-/// Σ flow(r, f). @param charges  f, [n_nodes x 3]
+/// Σ flow(r, f). @param charges  f, [n_nodes x 3] @param flow  of a target
 template <class Flow>
 Matrix flow_sums(const Matrix& at, const Matrix& points, const Matrix& charges, double prefactor, const Flow& flow) {
   const double *fx = charges.col(0).data(), *fy = charges.col(1).data(), *fz = charges.col(2).data();
   return node_sums<3>(
-      at, points, prefactor, [&](const NodeSeparation& r, Index i, Index) __attribute__((always_inline)) {
-        return flow(r, few(fx + i), few(fy + i), few(fz + i));
+      at, points, prefactor, [&](const NodeSeparation& r, Index i, Index target) __attribute__((always_inline)) {
+        return flow(target)(r, few(fx + i), few(fy + i), few(fz + i));
       });
 }
 
@@ -145,7 +170,8 @@ Matrix FarRule::charges(const Matrix& density) const {
   return result;
 }
 
-Matrix FarRule::sums(PairLayer layer, const Matrix& points, const Matrix& normals, const Matrix& charges) const {
+Matrix FarRule::sums(PairLayer layer, const Matrix& points, const Matrix& normals, const Matrix& charges,
+                     const MirrorPlane& plane) const {
   const auto scalar = [&](const auto& kernel_at) -> Matrix { return scalar_sums(nodes_, points, charges, kernel_at); };
   switch (layer) {
     case PairLayer::laplace_single:
@@ -157,18 +183,17 @@ Matrix FarRule::sums(PairLayer layer, const Matrix& points, const Matrix& normal
     case PairLayer::laplace_double_normal:
       return scalar([&](Index target) { return DoubleNormal{normals.row(target).transpose()}; });
     case PairLayer::stokes_single:
-      return flow_sums(
-          nodes_, points, charges, stokes_single_layer_prefactor(1.0),
-          [](const NodeSeparation& r, const Few& fx, const Few& fy, const Few& fz)
-              __attribute__((always_inline)) { return stokeslet_flow(r.x, r.y, r.z, r.inverse, fx, fy, fz); });
+      return flow_sums(nodes_, points, charges, stokes_single_layer_prefactor(1.0), [](Index) { return kStokeslet; });
     case PairLayer::stokes_double:
+      return flow_sums(nodes_, points, charges, kStokesDoubleLayerPrefactor, [](Index) { return kStresslet; });
+    case PairLayer::no_slip_single:
+      return flow_sums(nodes_, points, charges, stokes_single_layer_prefactor(1.0),
+                       [&](Index target) { return ImageOfForces{plane.target(points.row(target).transpose())}; });
+    case PairLayer::no_slip_double:
       break;
   }
-  return flow_sums(
-      nodes_, points, charges, kStokesDoubleLayerPrefactor,
-      [](const NodeSeparation& r, const Few& vx, const Few& vy, const Few& vz) __attribute__((always_inline)) {
-        return stokes_double_flow(r.x, r.y, r.z, r.source(), r.inverse, vx, vy, vz);
-      });
+  return flow_sums(nodes_, points, charges, kStokesDoubleLayerPrefactor,
+                   [&](Index target) { return ImageOfVelocities{plane.target(points.row(target).transpose())}; });
 }
 
 Matrix FarRule::rows(PairLayer layer, const Matrix& points, const Matrix& normals) const {

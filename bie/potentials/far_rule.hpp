@@ -26,8 +26,10 @@ class FarRule {
   /// A layer summed over the nodes for targets with normals N there, prefactors included.
   /// @param points, normals   [n_targets x 3]
   /// @param charges           of its density
+  /// @param plane             of images
   /// @return                  [n_targets x 1], of a Stokes layer [n_targets x 3]
-  [[nodiscard]] Matrix sums(PairLayer layer, const Matrix& points, const Matrix& normals, const Matrix& charges) const;
+  [[nodiscard]] Matrix sums(PairLayer layer, const Matrix& points, const Matrix& normals, const Matrix& charges,
+                            const MirrorPlane& plane = {}) const;
 
   /// A layer at several targets as rows over the coefficients of its density: quadrature and the adjoint of the
   /// synthesis in one. For N·∇S, N·∇D and the Stokes double layer.

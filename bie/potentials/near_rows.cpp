@@ -20,10 +20,11 @@ namespace vehd {
 
 PairColumns::PairColumns(const PairSelection& selection) {
   const std::array selected{selection.laplace_single,        selection.laplace_single_normal, selection.laplace_double,
-                            selection.laplace_double_normal, selection.stokes_single,         selection.stokes_double};
+                            selection.laplace_double_normal, selection.stokes_single,         selection.stokes_double,
+                            selection.no_slip_single,        selection.no_slip_double};
   for (std::size_t layer = 0; layer < n_pair_layers; ++layer) {
     first[layer] = selected[layer] ? count : -1;
-    if (selected[layer]) count += is_stokes(static_cast<PairLayer>(layer)) ? 6 : 1;
+    if (selected[layer]) count += n_rows(static_cast<PairLayer>(layer));
   }
 }
 
@@ -44,11 +45,13 @@ std::vector<KernelKind> kinds_of(const PairColumns& columns) {
                                                           {NodeFactor::difference, kLaplacePrefactor},
                                                           {NodeFactor::tangents, kLaplacePrefactor},
                                                           {NodeFactor::value, stokes_single_layer_prefactor(1.0)},
+                                                          {NodeFactor::difference, kStokesDoubleLayerPrefactor},
+                                                          {NodeFactor::value, stokes_single_layer_prefactor(1.0)},
                                                           {NodeFactor::difference, kStokesDoubleLayerPrefactor}}};
   std::vector<KernelKind> kinds;
   for (std::size_t layer = 0; layer < n_pair_layers; ++layer) {
     if (columns.first[layer] < 0) continue;
-    kinds.insert(kinds.end(), is_stokes(static_cast<PairLayer>(layer)) ? 6 : 1, kKinds[layer]);
+    kinds.insert(kinds.end(), static_cast<std::size_t>(n_rows(static_cast<PairLayer>(layer))), kKinds[layer]);
   }
   return kinds;
 }
@@ -56,7 +59,8 @@ std::vector<KernelKind> kinds_of(const PairColumns& columns) {
 /// Kernels times weights on one circle of nodes, [columns + 1 x n_theta]: the last row is the second tangent's of the
 /// normal derivative of D. @return ∫ r·J n/|r|³ of the circle
 double circle_kernels(const NodeColumns& at, const double* nodes, const Vector& weight, const Vector3& offset,
-                      const Vector3& normal, const PairColumns& columns, double* kernels) {
+                      const Vector3& normal, const MirroredTarget& mirrored, const PairColumns& columns,
+                      double* kernels) {
   const Index n = weight.size();
   const auto field = [&](int column, Index i) { return few(nodes + column * n + i); };
   const auto dot = [](const Vector3& a, const Few& x, const Few& y, const Few& z) -> Few {
@@ -93,6 +97,27 @@ double circle_kernels(const NodeColumns& at, const double* nodes, const Vector& 
     }
     if (columns.has(stokes_single)) put_blocks(stokes_single, stokeslet(x, y, z, inverse));
     if (columns.has(stokes_double)) put_blocks(stokes_double, stokes_double_kernel(x, y, z, area, inverse));
+    // Column by column of the kernel.
+    const auto put_image = [&](PairLayer layer, const auto& flow) {
+      for (int column = 0; column < 3; ++column) {
+        const auto force = [column](int component) { return Few{} + (component == column ? 1.0 : 0.0); };
+        const std::array<Few, 3> values = flow(force(0), force(1), force(2));
+        for (int row = 0; row < 3; ++row) {
+          put(columns[layer] + row_of_block(layer, row, column), w * values[static_cast<std::size_t>(row)]);
+        }
+      }
+    };
+    if (columns.has(no_slip_single)) {
+      put_image(no_slip_single, [&](const Few& fx, const Few& fy, const Few& fz) {
+        return no_slip_flow(mirrored, x, y, z, inverse, fx, fy, fz);
+      });
+    }
+    if (columns.has(no_slip_double)) {
+      const Few ax = uy * vz - uz * vy, ay = uz * vx - ux * vz, az = ux * vy - uy * vx;
+      put_image(no_slip_double, [&](const Few& fx, const Few& fy, const Few& fz) {
+        return no_slip_double_flow(mirrored, x, y, z, inverse, ax, ay, az, fx, fy, fz);
+      });
+    }
   }
   return angle;
 }
@@ -100,7 +125,7 @@ double circle_kernels(const NodeColumns& at, const double* nodes, const Vector& 
 }  // namespace
 
 NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vector3& offset, const Vector3& normal,
-                   const PairColumns& columns) {
+                   const MirroredTarget& mirrored, const PairColumns& columns) {
   const Index n_theta = rule.theta.size();
   const Index n_all = columns.count + 1;
   const RowMatrix nodes = frame.nodes(rule);
@@ -108,7 +133,7 @@ NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vecto
   NearRows result;
   for (int k = 0; k < rule.n_phi; ++k) {
     result.enclosure += kLaplacePrefactor * circle_kernels(NodeColumns{}, nodes.row(k).data(), rule.weight, offset,
-                                                           normal, columns, kernels.row(k).data());
+                                                           normal, mirrored, columns, kernels.row(k).data());
   }
   // Adjoint of the Fourier sums, then of the Legendre sums of each m.
   const RowMatrix circles = rule.azimuths.adjoint(kernels);
@@ -197,7 +222,8 @@ struct NearRowMaker {
     return {at.fields, target.foot.theta, target.foot.phi};
   }
   [[nodiscard]] NearRows rows_of(const NearTarget& target, const TargetFrame& frame, const GradedRule& rule) const {
-    return near_rows(frame, rule, at.point(target.index) - target.foot.position, at.normal(target.index), columns);
+    const Vector3 x = at.point(target.index);
+    return near_rows(frame, rule, x - target.foot.position, at.normal(target.index), at.plane.target(x), columns);
   }
 
   /// Largest change of a row from one rule to another, relative to the largest entry of each layer.

@@ -3,6 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "bie/kernels/no_slip.hpp"
+#include "bie/kernels/stokes.hpp"
 #include "bie/potentials/smooth_grid.hpp"
 #include "bie/potentials/target_frame.hpp"
 
@@ -15,10 +17,17 @@ enum class PairLayer : std::size_t {
   laplace_double,         ///< D[f] from f
   laplace_double_normal,  ///< N·∇D[f] from f
   stokes_single,          ///< of J f at μ = 1, three components
-  stokes_double           ///< of v, stokes_double_kernel
+  stokes_double,          ///< of v, stokes_double_kernel
+  no_slip_single,         ///< of J f at μ = 1, the image in a plane of which no_slip_flow is the kernel
+  no_slip_double          ///< of v, no_slip_double_flow
 };
-constexpr std::size_t n_pair_layers = 6;
+constexpr std::size_t n_pair_layers = 8;
 constexpr bool is_stokes(PairLayer layer) { return layer >= PairLayer::stokes_single; }
+constexpr bool is_no_slip(PairLayer layer) { return layer >= PairLayer::no_slip_single; }
+/// Rows of a layer: one of a scalar layer, of a Stokes layer six (xx, xy, xz, yy, yz, zz), of an image all nine.
+constexpr int n_rows(PairLayer layer) { return is_no_slip(layer) ? 9 : is_stokes(layer) ? 6 : 1; }
+/// The row of a layer with three components that takes component j of the density to component i.
+constexpr int row_of_block(PairLayer layer, int i, int j) { return is_no_slip(layer) ? 3 * i + j : kStokesBlock[i][j]; }
 
 /// Layers that are wanted, in the order of PairLayer.
 struct PairSelection {
@@ -28,10 +37,18 @@ struct PairSelection {
   bool laplace_double_normal = false;
   bool stokes_single = false;
   bool stokes_double = false;
+  bool no_slip_single = false;
+  bool no_slip_double = false;
 };
 
-/// Which rows belong to which layer: one for a scalar layer, six (xx, xy, xz, yy, yz, zz) for a Stokes layer, −1 for a
-/// layer that is not selected.
+/// Where targets of the images in a plane without slip stand: beyond it. Of no use to other layers.
+struct MirrorPlane {
+  Vector3 point = Vector3::Zero(), normal = Vector3::Zero();
+
+  [[nodiscard]] MirroredTarget target(const Vector3& x) const { return {normal, normal.dot(point - x)}; }
+};
+
+/// Which rows belong to which layer, see n_rows; −1 for a layer that is not selected.
 struct PairColumns {
   std::array<int, n_pair_layers> first;
   int count = 0;
@@ -53,11 +70,12 @@ struct NearRows {
 /// @param frame   of the membrane, its pole at the foot of the target; fields without densities
 /// @param offset  target minus foot
 /// @param normal  N at the target
+/// @param mirrored  where the target stands to the plane, for images
 /// Accuracy: rounding of the rule's sums; the rows agree with OffSurfaceLayers to 1e-9
 /// (tests/potentials/pair_layers_test.cpp)
-/// Source: paper Eqs. (6), (8), (9); stokes_double_kernel
+/// Source: paper Eqs. (6), (8), (9); stokes_double_kernel; no_slip_flow
 NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vector3& offset, const Vector3& normal,
-                   const PairColumns& columns);
+                   const MirroredTarget& mirrored, const PairColumns& columns);
 
 /// A membrane and points outside it at which its layers are wanted.
 struct PairGeometry {
@@ -65,6 +83,7 @@ struct PairGeometry {
   Matrix points, normals;  ///< of the targets, [n_targets x 3]
   LayerFields fields;      ///< of the membrane, without densities
   SmoothGrid grid;         ///< from which nearest points are sought
+  MirrorPlane plane{};     ///< of images
 
   [[nodiscard]] Vector3 point(Index i) const { return points.row(i).transpose(); }
   [[nodiscard]] Vector3 normal(Index i) const { return normals.row(i).transpose(); }

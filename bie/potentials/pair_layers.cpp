@@ -122,19 +122,21 @@ struct PairLayers::Data {
   FarLayers single, double_layer;
   /// Applied most often for what rows cost.
   FarLayers single_normal, double_normal, stokes_double_layer;
+  FarLayers no_slip;  ///< their kernels contain the height of the source as double layers contain J n
   PairCounts counts;
 
   Data(const Matrix& x, const Matrix& targets, const Matrix& normals, const PairSelection& selection,
-       const PairSettings& options, SharedTransforms& transforms)
+       const PairSettings& options, SharedTransforms& transforms, const MirrorPlane& plane)
       : settings(options),
         order(order_of(x.rows())),
-        at{x, targets, normals, make_layer_fields(x, {}), {}},
+        at{x, targets, normals, make_layer_fields(x, {}), {}, plane},
         near{PairColumns(selection), {}, {}},
         single(far_layers(selection.laplace_single || selection.stokes_single)),
         double_layer(far_layers(selection.laplace_double)),
         single_normal(far_layers(selection.laplace_single_normal, {.laplace_single_normal = true})),
         double_normal(far_layers(selection.laplace_double_normal, {.laplace_double_normal = true})),
-        stokes_double_layer(far_layers(selection.stokes_double, {.stokes_double = true})) {
+        stokes_double_layer(far_layers(selection.stokes_double, {.stokes_double = true})),
+        no_slip(far_layers(selection.no_slip_single || selection.no_slip_double)) {
     const int highest = highest_grid_order(order);
     at.grid = make_smooth_grid(at.fields, transforms.of(order, highest));
     inverse_reach2 = (at.grid.spacing * (highest / std::numbers::pi)).cwiseAbs2().cwiseInverse();
@@ -213,6 +215,7 @@ struct PairLayers::Data {
     make_far(of_single, rules, single_normal, room);
     make_far(far, rules, double_normal, room);
     make_far(far, rules, stokes_double_layer, room);
+    make_far(far, rules, no_slip, room);
   }
 
   /// Rows of far targets as long as there is room, the finest grids first: theirs gain most.
@@ -269,9 +272,12 @@ struct PairLayers::Data {
       case PairLayer::laplace_double_normal:
         return double_normal;
       case PairLayer::stokes_double:
+        return stokes_double_layer;
+      case PairLayer::no_slip_single:
+      case PairLayer::no_slip_double:
         break;
     }
-    return stokes_double_layer;
+    return no_slip;
   }
 
   /// The targets that have rows.
@@ -287,7 +293,7 @@ struct PairLayers::Data {
       }
       value.setZero();
       for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) value[i] += all.row(k, first + kStokesBlock[i][j]).dot(density.col(j));
+        for (int j = 0; j < 3; ++j) value[i] += all.row(k, first + row_of_block(layer, i, j)).dot(density.col(j));
       }
     }
   }
@@ -295,11 +301,11 @@ struct PairLayers::Data {
 
 PairLayers::PairLayers(const Matrix& source, const Matrix& points, const Matrix& normals,
                        const PairSelection& selection, const PairSettings& settings, SharedTransforms& transforms,
-                       Instruments& instruments) {
+                       Instruments& instruments, const MirrorPlane& plane) {
   require_size("points (Cartesian components)", points.cols(), 3);
   require_size("normals", normals.rows(), points.rows());
   const auto timer = instruments.time("pair layers");
-  auto data = std::make_unique<Data>(source, points, normals, selection, settings, transforms);
+  auto data = std::make_unique<Data>(source, points, normals, selection, settings, transforms, plane);
   data->make(transforms);
   data_ = std::move(data);
 }
@@ -318,7 +324,8 @@ Matrix PairLayers::apply(PairLayer layer, const Matrix& density) const {
   for (const FarGroup& group : far.groups) {
     const Matrix charges = group.rule->charges(density);
     for_each_batch(group.targets, [&](Index, const std::vector<Index>& batch) {
-      values(batch, Eigen::all) = group.rule->sums(layer, data_->points(batch), data_->normals(batch), charges);
+      values(batch, Eigen::all) =
+          group.rule->sums(layer, data_->points(batch), data_->normals(batch), charges, data_->at.plane);
     });
   }
   Data::put_rows(data_->near, layer, density, values);

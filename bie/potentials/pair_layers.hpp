@@ -50,11 +50,13 @@ class PairLayers {
   /// @param points   targets, [n_targets x 3]
   /// @param normals  N at the targets, [n_targets x 3]
   /// @param transforms  those that it needs are made where they are missing
+  /// @param plane       of images, beyond which the targets are
   /// @throws ConvergenceError if the nearest point of a target is not found, if a target is not outside the source, or
   /// if
   ///     the rules do not settle
   PairLayers(const Matrix& source, const Matrix& points, const Matrix& normals, const PairSelection& selection,
-             const PairSettings& settings, SharedTransforms& transforms, Instruments& instruments);
+             const PairSettings& settings, SharedTransforms& transforms, Instruments& instruments,
+             const MirrorPlane& plane = {});
   ~PairLayers();
   PairLayers(PairLayers&&) noexcept;
   PairLayers& operator=(PairLayers&&) noexcept;

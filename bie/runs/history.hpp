@@ -41,6 +41,7 @@ struct HistoryKind {
   Rows rows;
   std::optional<PorationModel> poration{};  ///< has columns of this model
   bool by_place = false;                    ///< has columns of a membrane that differs from place to place
+  bool wall = false;                        ///< has columns of a wall
 };
 
 /// Of the vesicles of a scene.

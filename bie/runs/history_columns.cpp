@@ -133,6 +133,9 @@ std::vector<HistoryColumn> columns_named(std::initializer_list<std::string_view>
   return columns;
 }
 
+constexpr HistoryColumn gap_degree{"gap_degree", "1", [](const HistoryRow& row) { return row.gap.degree(); },
+                                   ColumnMeaning::method};
+
 const std::vector<HistoryColumn>& columns_of_all() {
   static const std::vector<HistoryColumn> all = [] {
     auto columns = columns_named({"time",
@@ -159,10 +162,11 @@ const std::vector<HistoryColumn>& columns_of_all() {
     columns.push_back({"smallest_gap", "length", [](const HistoryRow& row) { return row.gap.distance; }});
     columns.push_back({"gap_vesicle_a", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.first); },
                        ColumnMeaning::method});
-    columns.push_back({"gap_vesicle_b", "1", [](const HistoryRow& row) { return static_cast<double>(row.gap.second); },
-                       ColumnMeaning::method});
     columns.push_back(
-        {"gap_degree", "1", [](const HistoryRow& row) { return row.gap.degree(); }, ColumnMeaning::method});
+        {"gap_vesicle_b", "1",
+         [](const HistoryRow& row) { return row.gap.to_wall ? -1.0 : static_cast<double>(row.gap.second); },
+         ColumnMeaning::method});
+    columns.push_back(gap_degree);
     add_rheology(columns);
     return columns;
   }();
@@ -189,6 +193,14 @@ std::vector<HistoryColumn> place_columns() {
           {"net_force_x", "force", of_vesicle<&D::net_force_x>},
           {"net_force_y", "force", of_vesicle<&D::net_force_y>},
           {"net_force_z", "force", of_vesicle<&D::net_force_z>}};
+}
+
+/// Beside a wall.
+std::vector<HistoryColumn> wall_columns(HistoryKind::Rows rows) {
+  std::vector<HistoryColumn> columns{{"gap_wall", "length", of_vesicle<&D::gap_wall>},
+                                     {"force_wall", "force", of_vesicle<&D::force_wall>}};
+  if (rows == HistoryKind::of_one) columns.push_back(gap_degree);
+  return columns;
 }
 
 }  // namespace
@@ -221,21 +233,23 @@ std::size_t first_columns(HistoryKind kind) {
 
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
   static const std::array usual = {&columns_of_one(), &columns_of_all(), &columns_of_each()};
-  // Without poration and with each of its models, without places and with them.
+  // Without poration and with each of its models, without places and wall and with them.
   using OfRows = std::array<std::vector<HistoryColumn>, usual.size()>;
   static const auto of_kinds = [] {
-    std::array<std::array<OfRows, 2>, n_poration_models + 1> all;
+    std::array<std::array<OfRows, 4>, n_poration_models + 1> all;
     for (std::size_t model = 0; model < all.size(); ++model) {
-      for (std::size_t places = 0; places < 2; ++places) {
+      for (std::size_t others = 0; others < 4; ++others) {
+        const bool by_place = others % 2 > 0, wall = others / 2 > 0;
         for (std::size_t rows = 0; rows < usual.size(); ++rows) {
-          std::vector<HistoryColumn>& columns = all.at(model).at(places).at(rows) = *usual.at(rows);
+          std::vector<HistoryColumn>& columns = all.at(model).at(others).at(rows) = *usual.at(rows);
           const auto append = [&](const std::vector<HistoryColumn>& more) {
             columns.insert(columns.end(), more.begin(), more.end());
           };
           const bool reacts = model > 1, of_whole = rows == HistoryKind::of_all;
           // What each membrane of several has is told of each.
           if (model > 0 && !(reacts && of_whole)) append(poration_columns(static_cast<PorationModel>(model - 1)));
-          if (places > 0 && !of_whole) append(place_columns());
+          if (by_place && !of_whole) append(place_columns());
+          if (wall) append(wall_columns(static_cast<HistoryKind::Rows>(rows)));
           // Histories of earlier versions end before it.
           if (rows != HistoryKind::of_each) append({{"wrinkle_growth", "1", wrinkle_growth, ColumnMeaning::method}});
         }
@@ -244,13 +258,14 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
     return all;
   }();
   const std::size_t model = kind.poration ? static_cast<std::size_t>(*kind.poration) + 1 : 0;
-  return of_kinds.at(model).at(kind.by_place ? 1 : 0).at(kind.rows);
+  return of_kinds.at(model).at((kind.by_place ? 1 : 0) + (kind.wall ? 2 : 0)).at(kind.rows);
 }
 
 HistoryKind history_kind(const Scene& scene) {
   HistoryKind kind(scene.vesicles.size() > 1 ? HistoryKind::of_all : HistoryKind::of_one);
   if (scene.poration) kind.poration = scene.poration->model;
   kind.by_place = has_places(scene);
+  kind.wall = scene.wall.has_value();
   return kind;
 }
 

@@ -92,10 +92,10 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
       least != separation.end() && std::isfinite(*least)) {
     json["separation"] = *least;
   }
-  if (history.has("smallest_gap")) {
-    json["vesicles"] = vesicle_names(scene);
-    const auto& gap = history.column("smallest_gap");
-    if (!gap.empty()) json["smallest_gap"] = *std::min_element(gap.begin(), gap.end());
+  if (history.has("smallest_gap")) json["vesicles"] = vesicle_names(scene);
+  for (const char* name : {"smallest_gap", "gap_wall"}) {
+    if (!history.has(name) || history.column(name).empty()) continue;
+    json[name] = std::ranges::min(history.column(name));
   }
   if (history.has("poration_time")) json["poration"] = poration_of(history);
   json["bending_energy_scaled"] = last(history.column("bending_energy_scaled"));

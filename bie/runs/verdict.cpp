@@ -169,7 +169,7 @@ std::optional<std::string> ringing(const HistoryTable& history) {
                      history.time_text(swings.front()), swings.size());
 }
 
-/// A gap between two vesicles that asks for a higher degree than they have.
+/// A gap between two vesicles, or one and a wall, that asks for a higher degree than they have.
 std::optional<std::string> narrow_gap(const HistoryTable& history) {
   if (!history.has("gap_degree")) return std::nullopt;
   const std::vector<double>& degree = history.column("gap_degree");
@@ -181,7 +181,8 @@ std::optional<std::string> narrow_gap(const HistoryTable& history) {
     if (!worst_row || degree[i] > degree[*worst_row]) worst_row = i;
   }
   if (!first) return std::nullopt;
-  return fmt::format("smallest_gap asks for more than the degree {:g} since time {} (worst {:.0f})", order[*first],
+  return fmt::format("{} asks for more than the degree {:g} since time {} (worst {:.0f})",
+                     history.has("smallest_gap") ? "smallest_gap" : "gap_wall", order[*first],
                      history.time_text(history.column("time")[*first]), degree[*worst_row]);
 }
 

@@ -16,7 +16,7 @@ void add(VesicleDiagnostics& all, const VesicleDiagnostics& one) {
   for (const auto sum :
        {&VesicleDiagnostics::bending_energy_scaled, &VesicleDiagnostics::elastic_energy_scaled,
         &VesicleDiagnostics::tension_integral, &VesicleDiagnostics::elastic_energy, &VesicleDiagnostics::net_force_x,
-        &VesicleDiagnostics::net_force_y, &VesicleDiagnostics::net_force_z}) {
+        &VesicleDiagnostics::net_force_y, &VesicleDiagnostics::net_force_z, &VesicleDiagnostics::force_wall}) {
     all.*sum += one.*sum;
   }
   for (const auto worst :
@@ -35,6 +35,7 @@ void add(VesicleDiagnostics& all, const VesicleDiagnostics& one) {
       all.*of_crossing = one.*of_crossing;
     }
   }
+  all.gap_wall = std::min(all.gap_wall, one.gap_wall);
   all.separation = std::min(all.separation, one.separation);
 }
 

@@ -10,12 +10,12 @@
 namespace vehd {
 namespace {
 
-constexpr std::array<const char*, 11> counted = {"reduced_volume",   "bending_energy_scaled",
+constexpr std::array<const char*, 12> counted = {"reduced_volume",   "bending_energy_scaled",
                                                  "tension_integral", "Vm_north",
                                                  "q_north",          "Vm_max",
                                                  "extent_x",         "extent_y",
                                                  "extent_z",         "inclination_deg",
-                                                 "smallest_gap"};
+                                                 "smallest_gap",     "gap_wall"};
 
 }  // namespace
 

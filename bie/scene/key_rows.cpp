@@ -198,7 +198,9 @@ void add_flow(auto& scene) {
   auto poiseuille = flow.of("poiseuille");
   poiseuille.key("centre_velocity", &FlowScene::centre_velocity, {"v_c", "velocity", "on the axis", required});
   poiseuille.key("radius", &FlowScene::radius, positive,
-                 {"R", "length", "where the profile vanishes; there is no wall", required});
+                 {"R", "length", "where the profile vanishes; a wall stands there only with [wall]", required});
+  poiseuille.word("section", &FlowScene::section, {"tube", "slit"},
+                  "1 − (y² + z²)/radius², or 1 − z²/radius² of a flow between planes");
   add_waveform(flow.optional("flow.waveform", &FlowScene::waveform, "factor of the flow in time; absent: 1"));
 }
 

@@ -101,8 +101,9 @@ Model model_of(const Scene& scene) {
   if (const auto& flow = scene.flow) {
     const Waveform waveform = waveform_in(scene, "flow.waveform");
     if (flow->kind == FlowKind::poiseuille) {
-      model.effects.push_back(
-          std::make_shared<PoiseuilleFlowEffect>(PoiseuilleParameters{flow->centre_velocity, flow->radius, waveform}));
+      PoiseuilleParameters parameters{flow->centre_velocity, flow->radius, waveform};
+      if (flow->section == FlowSection::slit) parameters.across = Vector3::UnitZ();
+      model.effects.push_back(std::make_shared<PoiseuilleFlowEffect>(std::move(parameters)));
     } else {
       model.flow = linear_flow(*flow);
       model.flow->waveform = waveform;

@@ -52,6 +52,7 @@ Problem problem_of(const Scene& scene, const Model& without_areas) {
   start = in_frame(problem.frame, std::move(start));
   const Symmetry found = find_symmetry(problem.model, start);
   problem.settings = settings_of(scene);
+  problem.settings.beside_wall = model.wall.has_value();
   const bool steady = scene.electric && scene.electric->initial_potential == InitialPotential::steady;
   problem.control = step_control_of(scene);
   problem.settings.longitude_fold = std::lcm(found.fold, found.exchange.fold());

@@ -31,6 +31,8 @@ struct HarmonicMode {
 enum class ShapeKind { ellipsoid, prolate, oblate, biconcave, stomatocyte, radial, file };
 /// Values of kind in [flow].
 enum class FlowKind { shear, planar_extension, axisymmetric_extension, gradient, poiseuille };
+/// Values of section in [flow].
+enum class FlowSection { tube, slit };
 /// Values of kind in a waveform.
 enum class WaveformKind { dc, ac, pulse, pulse_train, table };
 /// Values of model in [poration].
@@ -164,6 +166,7 @@ struct FlowScene {
   double rate = 1.0;
   TripleOfTriples gradient{};
   double centre_velocity = 1.0, radius = 1.0;
+  FlowSection section = FlowSection::tube;
   std::optional<WaveformScene> waveform;  ///< absent: constant
   bool operator==(const FlowScene&) const = default;
 };

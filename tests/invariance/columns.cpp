@@ -65,6 +65,9 @@ double largest_share(const VesicleDiagnostics& d) {
   return std::max({r.bending.norm(), r.tension.norm(), r.electric.norm(), r.others.norm(), r.viscosity.norm()});
 }
 
+/// Likewise of what they add up to.
+double share_of_force(const VesicleDiagnostics& d) { return largest_share(d) / std::sqrt(d.area); }
+
 bool same_time(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(a); }
 
 }  // namespace
@@ -140,6 +143,8 @@ const std::vector<Column>& columns() {
       {"conductance_max", &VesicleDiagnostics::conductance_max, {1, -2, 1, -2}},
       {"poration_load", &VesicleDiagnostics::poration_load},
       {"elastic_energy", &VesicleDiagnostics::elastic_energy, {3, -1, 1, 0}},
+      {"gap_wall", &VesicleDiagnostics::gap_wall, {1, 0, 0, 0}},
+      {"force_wall", &VesicleDiagnostics::force_wall, {2, -1, 1, 0}, on_nothing, 0.0, nullptr, share_of_force},
       {"poration_time", &VesicleDiagnostics::poration_time, {0, 1, 0, 0}},
       {"poration_x", &VesicleDiagnostics::poration_x, {1, 0, 0, 0}, on_place},
       {"poration_y", &VesicleDiagnostics::poration_y, {1, 0, 0, 0}, on_place},

@@ -63,6 +63,10 @@ Scene rotated_scene(Scene scene, const AxisAngle& by) {
   turn(scene.shape.centre);
   if (scene.electric) turn(scene.electric->field);
   if (scene.gravity) turn(scene.gravity->acceleration);
+  if (scene.wall) {
+    turn(scene.wall->point);
+    turn(scene.wall->normal);
+  }
   if (scene.flow) turn_flow(*scene.flow, model, rotation);
   return scene;
 }
@@ -71,6 +75,7 @@ Scene shifted_scene(Scene scene, const Vector3& by) {
   const auto shift = [&](Triple& centre) { centre = triple_of(vector_of(centre) + by); };
   shift(scene.shape.centre);
   for (VesicleScene& vesicle : scene.vesicles) shift(vesicle.shape.centre);
+  if (scene.wall) shift(scene.wall->point);
   return scene;
 }
 

@@ -45,7 +45,7 @@ std::vector<NamedScene> all_scenes() {
     scene.numerics.order = 10;
     result.push_back({name + std::string("_tolerance"), std::move(scene)});
   }
-  for (const char* name : {"everything", "poiseuille", "sphere", "sphere_in_tube"}) {
+  for (const char* name : {"everything", "above_wall", "poiseuille", "sphere", "sphere_in_tube"}) {
     Scene scene = read_scene(source / "tests/invariance" / (std::string(name) + ".toml"));
     for (int time_order = 1; time_order <= highest_time_order; ++time_order) {
       scene.numerics.time_order = time_order;

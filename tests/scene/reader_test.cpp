@@ -42,8 +42,8 @@ BOOST_AUTO_TEST_CASE(unknown_table_names_the_nearest) {
 
 BOOST_AUTO_TEST_CASE(unknown_key_outside_of_tables) {
   BOOST_TEST(message_of("axis = 1\n") ==
-             "scene.toml:1: unknown key \"axis\"; accepted: units, shape, membrane, fluid, gravity, contact, flow, "
-             "electric, poration, numerics, output, suspension, vesicle");
+             "scene.toml:1: unknown key \"axis\"; accepted: units, shape, membrane, fluid, gravity, contact, wall, "
+             "flow, electric, poration, numerics, output, suspension, vesicle");
 }
 
 BOOST_AUTO_TEST_CASE(table_given_as_value) {

@@ -11,7 +11,7 @@ EffectDescription PoiseuilleFlowEffect::description() const {
 void PoiseuilleFlowEffect::add(const EffectInput& input, Forcing& forcing) const {
   const Matrix& x = input.membrane.surface.position;
   const Vector3& d = parameters_.direction;
-  const Matrix off_axis = x - (x * d) * d.transpose();
+  const Matrix off_axis = parameters_.across ? Matrix(x * *parameters_.across) : Matrix(x - (x * d) * d.transpose());
   const double amplitude = parameters_.centre_velocity * parameters_.waveform.at(input.time, input.limit);
   const Vector profile =
       amplitude * (1.0 - off_axis.rowwise().squaredNorm().array() / (parameters_.radius * parameters_.radius));
@@ -22,16 +22,20 @@ bool PoiseuilleFlowEffect::is_invariant_under(const Reflection& g) const {
   for (int i = 0; i < 3; ++i) {
     if (g.sign(i) < 0 && parameters_.direction[i] != 0.0) return false;
   }
-  return true;
+  if (!parameters_.across) return true;
+  const Vector3& m = *parameters_.across;
+  const Vector3 image = m.cwiseProduct(Vector3(g.x, g.y, g.z));
+  return image == m || image == -m;
 }
 
 bool PoiseuilleFlowEffect::is_axisymmetric() const {
-  return parameters_.direction.x() == 0.0 && parameters_.direction.y() == 0.0;
+  return !parameters_.across && parameters_.direction.x() == 0.0 && parameters_.direction.y() == 0.0;
 }
 
 std::shared_ptr<const ExplicitEffect> PoiseuilleFlowEffect::rotated(const Matrix3& rotation) const {
   PoiseuilleParameters result = parameters_;
   result.direction = rotated_vector(rotation, parameters_.direction);
+  if (result.across) result.across = rotated_vector(rotation, *result.across);
   return std::make_shared<PoiseuilleFlowEffect>(result);
 }
 

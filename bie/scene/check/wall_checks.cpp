@@ -41,6 +41,11 @@ class WallChecks {
     if (!scene_.electric) {
       file_.refuse_key("wall", "field", "\"field\" in [wall] has no effect without [electric]; accepted: none");
     }
+    if (!(scene_.electric->conductivity_in > 0.0 && scene_.electric->conductivity_out > 0.0)) {
+      file_.refuse_key("wall", "field",
+                       "\"conductivity_in\" or \"conductivity_out\" in [electric] is 0; accepted beside a wall that "
+                       "touches the field: > 0, as small as it has to be");
+    }
     const Vector3 field = vector_of(scene_.electric->field);
     const Vector3 normal_part = field.dot(wall_.normal) * wall_.normal;
     const bool insulates = wall_.field == WallField::insulating;
@@ -59,7 +64,7 @@ class WallChecks {
                        "accepted: none");
     }
     if (!scene_.flow) return;
-    if (model_.flow ? allows(model_.flow->gradient) : allows_tube()) return;
+    if (model_.flow ? allows(model_.flow->gradient) : allows_poiseuille()) return;
     const toml::node& kind = file_.node_of("flow", "kind");
     if (wall_.flow == WallFlow::no_slip) {
       file_.refuse(kind,
@@ -84,10 +89,16 @@ class WallChecks {
            (along * (gradient + gradient.transpose()) * n).norm() <= size;
   }
 
-  /// A flow through a tube about x vanishes on no plane; planes through its axis are not sheared.
-  [[nodiscard]] bool allows_tube() const {
-    return wall_.flow == WallFlow::stress_free && std::abs(wall_.normal.x()) <= kRounding &&
-           std::abs(wall_.normal.dot(wall_.point)) <= kRounding * wall_.point.norm();
+  /// Flow along x: through a tube it vanishes on no plane, and planes through its axis are not sheared.
+  [[nodiscard]] bool allows_poiseuille() const {
+    const Vector3 n = wall_.normal.cwiseAbs();
+    const double height = std::abs(wall_.normal.dot(wall_.point)), rounding = kRounding * wall_.point.norm();
+    const bool slit = scene_.flow->section == FlowSection::slit;
+    if (wall_.flow == WallFlow::no_slip) {
+      return slit && n.head<2>().norm() <= kRounding && std::abs(height - scene_.flow->radius) <= rounding;
+    }
+    const bool across_slit = slit && n.z() <= kRounding;
+    return n.x() <= kRounding && (across_slit || (height <= rounding && (!slit || n.y() <= kRounding)));
   }
 
   void check_places() const {

@@ -151,15 +151,9 @@ void add_poration(const DiagnosedModel& model, const SphereTransform& fine, cons
   d.poration_mean = measures.dot(s.quadrature) / d.area;
 }
 
-/// The elastic energy and what all forces add up to.
-void add_by_place(const DiagnosedModel& model, const Membrane& membrane, const VesicleSolution& solution,
-                  const VesicleFields& fields, VesicleDiagnostics& d) {
-  if (!model.by_place) return;
+/// What all forces on the fluid add up to.
+Vector3 net_force(const Membrane& membrane, const VesicleSolution& solution, const VesicleFields& fields) {
   const Surface& s = membrane.surface;
-  if (model.flow.bending) {
-    d.elastic_energy =
-        bends_by_place(membrane) ? elastic_energy(membrane) : model.flow.bending->modulus * d.elastic_energy_scaled;
-  }
   Vector3 sum = Vector3::Zero();
   const auto add = [&](const Matrix& field, double sign) {
     if (field.size() > 0) sum += sign * membrane.fine.synthesize(field).transpose() * s.quadrature;
@@ -169,7 +163,17 @@ void add_by_place(const DiagnosedModel& model, const Membrane& membrane, const V
   add(fields.force_electric, -1.0);
   add(fields.force_contact, 1.0);
   if (solution.force_of_effects.size() > 0) sum += solution.force_of_effects.transpose() * s.quadrature;
-  std::tie(d.net_force_x, d.net_force_y, d.net_force_z) = components(sum);
+  return sum;
+}
+
+void add_by_place(const DiagnosedModel& model, const Membrane& membrane, const VesicleSolution& solution,
+                  const VesicleFields& fields, VesicleDiagnostics& d) {
+  if (!model.by_place) return;
+  if (model.flow.bending) {
+    d.elastic_energy =
+        bends_by_place(membrane) ? elastic_energy(membrane) : model.flow.bending->modulus * d.elastic_energy_scaled;
+  }
+  std::tie(d.net_force_x, d.net_force_y, d.net_force_z) = components(net_force(membrane, solution, fields));
 }
 
 void check_operators(const MembraneSpace& space, double tolerance, const VesicleState& vesicle,
@@ -192,6 +196,7 @@ DiagnosedModel diagnosed_model(const Model& model, const VesicleModel& vesicle) 
   result.criterion = vesicle.criterion;
   result.reaction = vesicle.reaction;
   result.charging = vesicle.charging;
+  result.wall = model.wall;
   result.by_place = vesicle.by_place || vesicle.pump.has_value();
   return result;
 }
@@ -240,6 +245,10 @@ VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& sp
   }
   add_poration(model, fine, s, vesicle, solution, fields, d);
   add_by_place(model, membrane, solution, fields, d);
+  if (model.wall) {
+    d.gap_wall = nearest_to_wall(*model.wall, vesicle.position).distance;
+    d.force_wall = -model.wall->normal.dot(net_force(membrane, solution, fields));
+  }
   if (previous != nullptr) {
     d.quadrature_error = previous->quadrature_error;
     d.quadrature_is_coarse = previous->quadrature_is_coarse;

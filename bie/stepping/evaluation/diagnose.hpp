@@ -13,6 +13,7 @@ struct DiagnosedModel {
   std::optional<PorationCriterion> criterion{};
   std::shared_ptr<const PorationReaction> reaction{};
   ChargingParameters charging{};
+  std::optional<Wall> wall{};
   bool by_place = false;  ///< some properties differ from place to place, or there is a pump
 };
 

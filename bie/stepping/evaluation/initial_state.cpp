@@ -41,9 +41,8 @@ SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, cons
 /// V_m of all vesicles in their steady state; with displacement currents it stands for the charges of both faces.
 void find_steady_potentials(const Model& model, const Discretisation& discretisation, State& state,
                             Instruments& instruments) {
-  // One alone is solved for on every rank.
-  const bool interacts = state.vesicles.size() > 1;
-  const Shares shares = interacts ? discretisation.shares() : Shares();
+  const bool interacts = state.vesicles.size() > 1 || model.wall;
+  const Shares& shares = discretisation.shares();
   std::vector<Membrane> frozen;
   frozen.reserve(state.vesicles.size());
   std::vector<InteractingMembrane> interacting;
@@ -61,7 +60,8 @@ void find_steady_potentials(const Model& model, const Discretisation& discretisa
     potentials.push_back(state.vesicles[a].transmembrane_potential);
   }
   const Interaction interaction =
-      interacts ? Interaction(interacting, {}, instruments, shares, discretisation.symmetry().exchange) : Interaction();
+      interacts ? Interaction(interacting, {}, instruments, shares, discretisation.symmetry().exchange, {}, model.wall)
+                : Interaction();
   require_converged(steady_potentials(membranes, interaction, discretisation.settings().electric_tolerance, potentials),
                     "steady membrane potential");
   for (std::size_t a = 0; a < frozen.size(); ++a) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,24 +10,26 @@
 
 namespace vehd {
 
-/// Where two vesicles are nearest to each other.
+/// Where two vesicles, or a vesicle and a wall, are nearest to each other.
 struct SmallestGap {
-  double distance = std::numeric_limits<double>::infinity();  ///< infinite of a single vesicle
+  double distance = std::numeric_limits<double>::infinity();  ///< infinite of a single vesicle in unbounded fluid
   double relative = std::numeric_limits<double>::infinity();  ///< over the smaller of both radii √(A/4π)
   double radius = 0.0;                                        ///< the smaller one
-  std::size_t first = 0, second = 0;                          ///< their numbers
-  Vector3 place = Vector3::Zero();                            ///< the middle between both membranes
+  std::size_t first = 0, second = 0;                          ///< their numbers; equal beside a wall
+  Vector3 place = Vector3::Zero();                            ///< the middle between both
+  bool to_wall = false;                                       ///< the second is a wall
 
-  /// Degree that densities in this gap ask for, about 4/√(gap over radius); 0 of a single vesicle.
+  /// Degree that densities in this gap ask for, about 4/√(gap over radius), the gap to a wall being half of that to
+  /// the image; 0 of a single vesicle in unbounded fluid.
   [[nodiscard]] double degree() const;
 };
 
-/// Of all vesicles of a state.
-/// Accuracy: that of nearest_points
-SmallestGap find_smallest_gap(const State& state);
+/// Of all vesicles of a state, and of the wall beside them.
+/// Accuracy: that of nearest_points and nearest_to_wall
+SmallestGap find_smallest_gap(const State& state, const std::optional<Wall>& wall);
 
-/// A step that brings two vesicles into contact, or so near in one go that they could have passed through each other,
-/// is none. @throws ConvergenceError that says which two, where and how near
+/// A step that brings two vesicles, or one and a wall, into contact, or so near in one go that they could have passed
+/// through each other, is none. @throws ConvergenceError that says which two, where and how near
 /// @param before   at the start of the step; infinite at the start of a run
 /// @param spacing  of the grids, over the radius
 /// @param frame    of the state: places are told in the laboratory

@@ -27,10 +27,12 @@ std::shared_ptr<const Membrane> assembled(const Model& model, const VesicleModel
   return std::make_shared<const Membrane>(std::move(membrane));
 }
 
-/// The layers between the membranes that the effects need; those of the electric problem only while it is active.
+/// The layers between the membranes, and those of their images in a wall, that the effects need; those of the electric
+/// problem only while it is active.
 std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>& tasks, bool electric_active,
                                                   const Discretisation& discretisation, Instruments& instruments) {
-  if (tasks.size() == 1) return std::make_shared<const Interaction>();
+  const std::optional<Wall>& wall = tasks.front().model.wall;
+  if (tasks.size() == 1 && !wall) return std::make_shared<const Interaction>();
   std::vector<InteractingMembrane> membranes;
   for (const VesicleTask& task : tasks) {
     PairSelection selection;
@@ -46,7 +48,7 @@ std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>
   }
   return std::make_shared<const Interaction>(membranes, pair_settings(tasks.front().settings), instruments,
                                              discretisation.shares(), discretisation.symmetry().exchange,
-                                             discretisation.pair_transforms());
+                                             discretisation.pair_transforms(), wall);
 }
 
 void solve(const std::vector<VesicleTask>& tasks, double time, Limit limit, Instruments& instruments,

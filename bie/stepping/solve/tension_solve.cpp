@@ -320,8 +320,7 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
                               const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
                               double tolerance) {
   std::vector<OneTension> all;
-  const bool has_others = membranes.size() > 1;
-  for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a], has_others);
+  for (std::size_t a = 0; a < membranes.size(); ++a) all.emplace_back(membranes[a], is_sphere[a], flow.interacts());
   const std::vector<std::size_t> own = flow.shares().own(all.size());
   const auto gather = [&](std::vector<Vector>& unknowns) {
     flow.shares().gather(unknowns, [&](const Vector& of_original, std::size_t a) {

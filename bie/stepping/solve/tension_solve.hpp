@@ -24,9 +24,9 @@ struct SolvedTensions {
 /// with that of each membrane's own response (TensionInverse) where there are many.
 ///
 /// The mean of λ stays zero on a sphere. An inextensible sphere is rigid but for flow within it (rigid_sphere.hpp):
-/// where it acts on others a force c n, c of degrees 2 … p − 1, less its mean holds it in shape, the limit of a large
-/// uniform tension on a shape that hardly differs from a sphere; it is an unknown beside λ, and counts as force of the
-/// tension. Alone it has the velocity of Eq. (27b).
+/// where it acts on others or has an image in a wall a force c n, c of degrees 2 … p − 1, less its mean holds it in
+/// shape, the limit of a large uniform tension on a shape that hardly differs from a sphere; it is an unknown beside λ,
+/// and counts as force of the tension. Alone it has the velocity of Eq. (27b).
 ///
 /// Of several ranks, see Interaction, each needs the forces on its own membranes. It gets forces and velocities of
 /// these, and the tensions and recycled directions of all.

@@ -60,11 +60,12 @@ Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry
 
 /// Ranks share the vesicles by the sizes of the operators.
 void Discretisation::prepare_pairs(const Ranks& ranks) {
-  if (n_vesicles() < 2) return;
+  if (n_vesicles() < 2 && !settings_.beside_wall) return;
   for (const auto& space : vesicles_) {
     // Tables grow with the cube of the degree, and take ever less of a step.
     if (space->order() <= kHighestPrepared) prepare_pair_transforms(space->order(), pair_transforms_);
   }
+  if (n_vesicles() < 2) return;
   std::vector<double> costs;
   for (const auto& space : vesicles_) costs.push_back(std::pow(space->order() + 1.0, 4));
   shares_ = Shares(ranks, costs, symmetry_.exchange.originals());

@@ -17,6 +17,7 @@ struct NumericalSettings {
   int time_order = 1;                     ///< order of a step in dt, 1 … highest_time_order
   int upsampling = 2;                     ///< nonlinear terms live on the grid of order upsampling * p
   int longitude_fold = 1;                 ///< every grid is its own image under turns by 2π/fold about z
+  bool beside_wall = false;               ///< even a single vesicle has layers between membranes: those of its image
   double quadrature_oversampling = 1.15;  ///< nodes of the singular quadrature in θ per degree
   double quadrature_tolerance = 1e-4;     ///< of LayerCheck::error, above which finer quadrature is taken
   double flow_tolerance = 1e-9;           ///< of the tension and velocity solves

@@ -78,6 +78,9 @@ struct VesicleDiagnostics {
   double poration_max = 0.0, poration_mean = 0.0;  ///< of the porosity or of the density of pores
   PorationLoad load{};
   double poration_load = 0;  ///< that of `load`
+  // Beside a wall.
+  double gap_wall = std::numeric_limits<double>::infinity();  ///< between the membrane and the wall
+  double force_wall = 0.0;  ///< with which the membrane presses the fluid towards the wall
   // Of a membrane that differs from place to place.
   double elastic_energy = 0.0;                                     ///< ∫κ_B (H − c)² dA
   double net_force_x = 0.0, net_force_y = 0.0, net_force_z = 0.0;  ///< of the membrane on the fluid

@@ -138,8 +138,9 @@ std::string symmetry_text(const Symmetry& symmetry, const Frame& frame) {
                      frame.origin.z());
 }
 
-Model in_frame(const Frame& frame, const Model& of_laboratory) {
-  return rotated(frame.axes.transpose(), of_laboratory);
+Model in_frame(const Frame& frame, Model of_laboratory) {
+  if (of_laboratory.wall) of_laboratory.wall->point -= frame.origin;
+  return rotated(frame.axes.transpose(), std::move(of_laboratory));
 }
 
 State in_frame(const Frame& frame, State of_laboratory) {

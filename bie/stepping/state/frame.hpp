@@ -33,8 +33,9 @@ Frame find_frame(const Model& model, const State& state);
 /// symmetry_text with the axes by their names in the laboratory, and where they meet if that is not its origin.
 std::string symmetry_text(const Symmetry& symmetry, const Frame& frame);
 
-/// What the laboratory shows, in the frame; the model must be the same at every origin but zero.
-Model in_frame(const Frame& frame, const Model& of_laboratory);
+/// What the laboratory shows, in the frame; at an origin other than zero all effects but the wall must be the same
+/// everywhere.
+Model in_frame(const Frame& frame, Model of_laboratory);
 /// A state as it is in the frame.
 State in_frame(const Frame& frame, State of_laboratory);
 /// The other way.

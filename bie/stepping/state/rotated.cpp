@@ -26,6 +26,10 @@ void turn(Fields& fields, const Matrix3& rotation) {
 Model rotated(const Matrix3& rotation, Model model) {
   if (model.flow) model.flow->gradient = rotated_tensor(rotation, model.flow->gradient);
   if (model.electric) model.electric->field = rotated_vector(rotation, model.electric->field);
+  if (model.wall) {
+    model.wall->point = rotation * model.wall->point;
+    model.wall->normal = rotated_vector(rotation, model.wall->normal);
+  }
   for (auto& effect : model.effects) effect = effect->rotated(rotation);
   for (VesicleModel& vesicle : model.vesicles) {
     for (auto& effect : vesicle.effects) effect = effect->rotated(rotation);

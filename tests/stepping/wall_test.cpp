@@ -1,0 +1,193 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "bie/physics/effects/gravity.hpp"
+#include "bie/stepping/evaluation/smallest_gap.hpp"
+#include "bie/support/errors.hpp"
+#include "tests/support/beside_wall.hpp"
+#include "tests/support/several_runs.hpp"
+#include "tests/support/shapes.hpp"
+
+using namespace vehd;
+using namespace vehd::testing;
+
+BOOST_AUTO_TEST_SUITE(beside_wall)
+
+namespace {
+
+Wall floor_without_slip() { return {Vector3::Zero(), Vector3::UnitZ(), WallFlow::no_slip, WallField::none}; }
+
+/// A unit sphere that a force of 1 pulls.
+Model pulled(const Vector3& direction, double viscosity, double ratio, const Wall& wall) {
+  Model model = relaxation_model(0.1);
+  model.viscosity = viscosity;
+  model.wall = wall;
+  const double volume = 4.0 / 3.0 * std::numbers::pi;
+  model.vesicles.front().effects.push_back(
+      std::make_shared<GravityEffect>(GravityParameters{1.0, direction.normalized() / volume}));
+  model.vesicles.front().viscosity_ratio = ratio;
+  return model;
+}
+
+Vector3 velocity_of(const Model& model, const Matrix& sphere_at, bool symmetric) {
+  const std::vector<Matrix> spheres{sphere_at};
+  NumericalSettings settings;
+  settings.beside_wall = true;
+  const Discretisation discretisation =
+      discretisation_of(spheres, settings, symmetric ? find_symmetry(model, at_rest(spheres)) : Symmetry{});
+  return translation(solved(model, discretisation, at_rest(spheres)).fields.vesicles[0].velocity);
+}
+
+Matrix height_above(const Matrix& position, double height) { return translated(position, {0.0, 0.0, height}); }
+
+}  // namespace
+
+// Spheres are rigid whatever is within them. Source: Brenner 1961
+BOOST_AUTO_TEST_CASE(spheres_towards_a_wall_move_as_brenner_says) {
+  struct Row {
+    double height, drag;
+    int order;
+    double most;
+  };
+  for (const auto& [height, drag, order, most] :
+       {Row{10.067662, 1.12524644, 16, 1e-7}, Row{5.0, 1.28508656, 16, 1e-7}, Row{3.0, 1.56920539, 16, 1e-7},
+        Row{2.0, 2.12553557, 16, 1e-7}, Row{1.5430806, 3.03606451, 16, 1e-7}, Row{1.1, 11.45915720, 32, 1e-4}}) {
+    for (const double ratio : {1.0, 5.0}) {
+      const Model model = pulled(-Vector3::UnitZ(), 2.5, ratio, floor_without_slip());
+      const double expected = -1.0 / (6.0 * std::numbers::pi * 2.5 * drag);
+      const Vector3 found = velocity_of(model, height_above(sphere(order), height), true);
+      BOOST_TEST((found - expected * Vector3::UnitZ()).norm() < most * std::abs(expected),
+                 "height " << height << ", ratio " << ratio << ": " << found.z() / expected - 1.0);
+    }
+  }
+  const Wall wall = oblique_wall(WallFlow::no_slip, WallField::none);
+  const Matrix at = at_gap(wall, sphere(16), 1.0);
+  const Vector3 found = velocity_of(pulled(wall.normal, 1.0, 1.0, wall), at, false);
+  const double expected = 1.0 / (6.0 * std::numbers::pi * 2.12553557);
+  BOOST_TEST((found - expected * wall.normal).norm() < 1e-7 * expected);
+}
+
+BOOST_AUTO_TEST_CASE(distant_spheres_move_along_a_wall_as_faxen_says) {
+  for (const double height : {4.0, 8.0}) {
+    const Model model = pulled(Vector3::UnitX(), 2.5, 3.0, floor_without_slip());
+    const Vector3 found = velocity_of(model, height_above(sphere(14), height), true);
+    const double s = 1.0 / height, alone = 1.0 / (6.0 * std::numbers::pi * 2.5);
+    const double faxen =
+        1.0 - 9.0 / 16.0 * s + 1.0 / 8.0 * std::pow(s, 3) - 45.0 / 256.0 * std::pow(s, 4) - 1.0 / 16.0 * std::pow(s, 5);
+    BOOST_TEST((found / alone - faxen * Vector3::UnitX()).norm() < std::pow(s, 6),
+               "height " << height << ": " << (found.x() / alone - faxen) / std::pow(s, 6));
+  }
+}
+
+// A force dipole S drifts at 9 S_zz/(64πμh²) away from the wall and at 3 S_xz/(32πμh²) along it.
+BOOST_AUTO_TEST_CASE(vesicles_far_from_a_wall_drift_as_their_stresslets_do) {
+  Model model = shear_model();
+  model.wall = floor_without_slip();
+  const Matrix shape =
+      rotated_fields(ellipsoid(10, {1.0, 1.0, 1.6}), Matrix3(Eigen::AngleAxisd(1.0, Vector3::UnitY())));
+  const Matrix turned = shape * Matrix3(Eigen::AngleAxisd(1.0, Vector3::UnitY())).transpose();
+  double last = 0.01;
+  for (const double height : {10.0, 20.0, 40.0}) {
+    const std::vector<Matrix> positions{height_above(turned, height)};
+    Instruments instruments;
+    const Evaluation found = evaluate(model, discretisation_of(positions), at_rest(positions), instruments);
+    const VesicleDiagnostics& d = found.diagnostics.vesicles[0];
+    Matrix3 dipole = -0.5 * (d.rheology.moment() + d.rheology.moment().transpose());
+    dipole -= dipole.trace() / 3.0 * Matrix3::Identity();
+    const double expected = 9.0 * dipole(2, 2) / (64.0 * std::numbers::pi * model.viscosity * height * height);
+    const double error = std::abs(d.centroid_velocity_z / expected - 1.0);
+    BOOST_TEST(error < last, "height " << height << ": " << error);
+    last = 0.7 * error;
+  }
+}
+
+// Rates of everything beside a wall that mirrors are those of two mirrored vesicles.
+BOOST_AUTO_TEST_CASE(a_wall_that_mirrors_is_a_scene_of_mirrored_vesicles) {
+  for (const WallField field : {WallField::insulating, WallField::electrode}) {
+    const Wall wall = oblique_wall(WallFlow::stress_free, field);
+    const MirrorImage mirror{wall};
+    Model model = field_model();
+    model.electric->field = field == WallField::electrode ? wall.normal : wall.normal.unitOrthogonal();
+    model.wall = wall;
+    model.vesicles.front().viscosity_ratio = 3.0;
+    Model two = with_vesicles(model, 2);
+    two.wall.reset();
+    const double sign = field == WallField::electrode ? -1.0 : 1.0;
+    for (const Matrix& shape : {asymmetric_shape(12), shape_33(12)}) {
+      const Matrix position = at_gap(wall, shape, 0.3);
+      const std::vector<Matrix> one{position}, all{position, mirror.position(position)};
+      State state = at_rest(one), both = at_rest(all);
+      const Vector potential = 0.3 * position * Vector3(0.2, -0.5, 0.6);
+      state.vesicles[0].transmembrane_potential = both.vesicles[0].transmembrane_potential = potential;
+      both.vesicles[1].transmembrane_potential = sign * mirror.scalar(potential);
+      const SolvedFields found = solved(model, discretisation_of(one), state);
+      const SolvedFields expected = solved(two, discretisation_of(all), both);
+      const auto difference = [&](const auto& member) { return relative_difference(member(found), member(expected)); };
+      BOOST_TEST(difference([](const SolvedFields& f) -> Matrix { return f.fields.vesicles[0].velocity; }) < 1e-8);
+      BOOST_TEST(difference([](const SolvedFields& f) -> Matrix { return f.fields.vesicles[0].force_electric; }) <
+                 1e-9);
+      BOOST_TEST(difference([](const SolvedFields& f) -> Matrix {
+                   return f.vesicles[0].rate.transmembrane_potential;
+                 }) < 1e-9);
+    }
+  }
+}
+
+// The same in other axes, and anywhere along the wall.
+BOOST_AUTO_TEST_CASE(scenes_that_are_turned_and_moved_with_their_wall_are_the_same) {
+  Model model = shear_model();
+  model.wall = floor_without_slip();
+  model.vesicles.front().viscosity_ratio = 2.0;
+  const std::vector<Matrix> here{at_gap(*model.wall, asymmetric_shape(10), 0.2)};
+  const Matrix velocity = solved(model, discretisation_of(here), at_rest(here)).fields.vesicles[0].velocity;
+  const std::vector<Matrix> along{translated(here[0], {5.0, -3.0, 0.0})};
+  BOOST_TEST(relative_difference(solved(model, discretisation_of(along), at_rest(along)).fields.vesicles[0].velocity,
+                                 velocity) < 1e-8);
+  Frame frame;
+  frame.axes = Eigen::AngleAxisd(0.8, Vector3(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+  const Model there = in_frame(frame, model);
+  const State turned = in_frame(frame, at_rest(here));
+  const Fields found = in_laboratory(
+      frame, solved(there, discretisation_of(std::vector<Matrix>{turned.vesicles[0].position}), turned).fields);
+  BOOST_TEST(relative_difference(found.vesicles[0].velocity, velocity) < 1e-6);
+}
+
+BOOST_AUTO_TEST_CASE(weight_is_carried_to_the_wall) {
+  const Model model = pulled(-Vector3::UnitZ(), 1.0, 2.0, floor_without_slip());
+  const std::vector<Matrix> positions{at_gap(*model.wall, prolate(10), 0.2)};
+  Instruments instruments;
+  const Evaluation found = evaluate(model, discretisation_of(positions), at_rest(positions), instruments);
+  const VesicleDiagnostics& d = found.diagnostics.vesicles[0];
+  BOOST_TEST(std::abs(d.force_wall - d.volume / (4.0 / 3.0 * std::numbers::pi)) < 1e-9 * d.force_wall);
+  BOOST_TEST(std::abs(d.gap_wall - 0.2) < 1e-12);
+}
+
+// What the symmetry about the normal leaves out changes nothing.
+BOOST_AUTO_TEST_CASE(a_sinking_vesicle_keeps_its_symmetry) {
+  Model model = pulled(Vector3(0.0, 0.0, -1.0), 1.0, 1.0, floor_without_slip());
+  const Matrix position = at_gap(*model.wall, prolate(10), 0.5);
+  BOOST_TEST(find_symmetry(model, at_rest(position)).axisymmetric);
+  BOOST_TEST(difference_with_symmetry(model, position, 0.1, 3) < 1e-8);
+}
+
+BOOST_AUTO_TEST_CASE(a_vesicle_that_comes_too_near_to_a_wall_is_told) {
+  const Wall wall = floor_without_slip();
+  State state = at_rest(height_above(sphere(6), 1.5));
+  state.vesicles[0].reference_area = 4.0 * std::numbers::pi;
+  const SmallestGap gap = find_smallest_gap(state, wall);
+  BOOST_TEST(gap.to_wall);
+  BOOST_TEST(std::abs(gap.distance - 0.5) < 1e-12);
+  BOOST_TEST((gap.place - Vector3(0.0, 0.0, 0.25)).norm() < 1e-6);
+  BOOST_TEST(std::abs(gap.degree() - 4.0) < 1e-12);
+  state = at_rest(height_above(sphere(6), 1.0005));
+  state.vesicles[0].reference_area = 4.0 * std::numbers::pi;
+  BOOST_CHECK_EXCEPTION(
+      require_gap(find_smallest_gap(state, wall), gap, 0.1, Frame{}, {}), ConvergenceError,
+      [](const ConvergenceError& error) {
+        return std::string(error.what()) ==
+               "the vesicle comes within 0.0005 radii of the wall at (0, 0, 0.00025); accepted: 0.001, "
+               "up to which the layers between them are exact";
+      });
+}
+
+BOOST_AUTO_TEST_SUITE_END()
