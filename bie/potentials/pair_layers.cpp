@@ -122,7 +122,7 @@ struct PairLayers::Data {
   FarLayers single, double_layer;
   /// Applied most often for what rows cost.
   FarLayers single_normal, double_normal, stokes_double_layer;
-  FarLayers no_slip;  ///< their kernels contain the height of the source as double layers contain J n
+  FarLayers no_slip_double;
   PairCounts counts;
 
   Data(const Matrix& x, const Matrix& targets, const Matrix& normals, const PairSelection& selection,
@@ -131,12 +131,12 @@ struct PairLayers::Data {
         order(order_of(x.rows())),
         at{x, targets, normals, make_layer_fields(x, {}), {}, plane},
         near{PairColumns(selection), {}, {}},
-        single(far_layers(selection.laplace_single || selection.stokes_single)),
+        single(far_layers(selection.laplace_single || selection.stokes_single || selection.no_slip_single)),
         double_layer(far_layers(selection.laplace_double)),
         single_normal(far_layers(selection.laplace_single_normal, {.laplace_single_normal = true})),
         double_normal(far_layers(selection.laplace_double_normal, {.laplace_double_normal = true})),
         stokes_double_layer(far_layers(selection.stokes_double, {.stokes_double = true})),
-        no_slip(far_layers(selection.no_slip_single || selection.no_slip_double)) {
+        no_slip_double(far_layers(selection.no_slip_double)) {
     const int highest = highest_grid_order(order);
     at.grid = make_smooth_grid(at.fields, transforms.of(order, highest));
     inverse_reach2 = (at.grid.spacing * (highest / std::numbers::pi)).cwiseAbs2().cwiseInverse();
@@ -215,7 +215,7 @@ struct PairLayers::Data {
     make_far(of_single, rules, single_normal, room);
     make_far(far, rules, double_normal, room);
     make_far(far, rules, stokes_double_layer, room);
-    make_far(far, rules, no_slip, room);
+    make_far(far, rules, no_slip_double, room);
   }
 
   /// Rows of far targets as long as there is room, the finest grids first: theirs gain most.
@@ -264,6 +264,7 @@ struct PairLayers::Data {
     switch (layer) {
       case PairLayer::laplace_single:
       case PairLayer::stokes_single:
+      case PairLayer::no_slip_single:
         return single;
       case PairLayer::laplace_single_normal:
         return single_normal;
@@ -273,11 +274,10 @@ struct PairLayers::Data {
         return double_normal;
       case PairLayer::stokes_double:
         return stokes_double_layer;
-      case PairLayer::no_slip_single:
       case PairLayer::no_slip_double:
         break;
     }
-    return no_slip;
+    return no_slip_double;
   }
 
   /// The targets that have rows.

@@ -1,7 +1,9 @@
 #include "bie/runs/history.hpp"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <sstream>
+#include <string_view>
 
 #include "bie/runs/run_files.hpp"
 #include "bie/runs/verdict.hpp"
@@ -58,6 +60,23 @@ BOOST_AUTO_TEST_CASE(a_membrane_that_porates_and_differs_from_place_to_place_has
   // Of several they are those of each.
   kind.rows = vehd::HistoryKind::of_all;
   BOOST_TEST(vehd::history_columns(kind).size() == vehd::history_columns(vehd::HistoryKind::of_all).size());
+}
+
+BOOST_AUTO_TEST_CASE(beside_a_wall_gap_and_force_have_columns) {
+  for (const auto rows : {vehd::HistoryKind::of_one, vehd::HistoryKind::of_all, vehd::HistoryKind::of_each}) {
+    vehd::HistoryKind kind(rows);
+    const auto count = [&kind](std::string_view name) {
+      return std::ranges::count(vehd::history_columns(kind), name, &vehd::HistoryColumn::name);
+    };
+    BOOST_TEST(count("gap_wall") == 0);
+    kind.wall = true;
+    for (const bool by_place : {false, true}) {
+      kind.by_place = by_place;
+      BOOST_TEST(count("gap_wall") == 1);
+      BOOST_TEST(count("force_wall") == 1);
+      BOOST_TEST(count("gap_degree") == (rows == vehd::HistoryKind::of_each ? 0 : 1));
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(columns_go_by_their_plain_names_whatever_their_units) {

@@ -150,6 +150,29 @@ BOOST_AUTO_TEST_CASE(scenes_that_are_turned_and_moved_with_their_wall_are_the_sa
   BOOST_TEST(relative_difference(found.vesicles[0].velocity, velocity) < 1.5e-5);
 }
 
+// Above the same wall vesicles may be images of one another.
+BOOST_AUTO_TEST_CASE(exchanged_vesicles_above_a_wall_are_those_that_are_all_computed) {
+  Model model = field_model();
+  model.electric->field = Vector3::UnitZ();
+  model.wall = Wall{Vector3::Zero(), Vector3::UnitZ(), WallFlow::no_slip, WallField::electrode};
+  model = with_vesicles(model, 2);
+  const Matrix ellipsoid_here = ellipsoid(8, {0.8, 1.0, 1.2});
+  const std::vector<Matrix> positions{translated(ellipsoid_here, {-1.1, 0.0, 1.5}),
+                                      translated(ellipsoid_here, {1.1, 0.0, 1.5})};
+  const Symmetry symmetry = find_symmetry(model, at_rest(positions));
+  BOOST_TEST(symmetry.exchange.any());
+  const auto found = [&](const Symmetry& used) {
+    const Discretisation discretisation = discretisation_of(positions, {}, used);
+    return solved(model, discretisation, start(model, discretisation, positions, 0.1, true));
+  };
+  const SolvedFields all = found({}), one = found(symmetry);
+  for (const std::size_t a : {0, 1}) {
+    BOOST_TEST(relative_difference(one.fields.vesicles[a].velocity, all.fields.vesicles[a].velocity) < 1e-7);
+    BOOST_TEST(relative_difference(one.fields.vesicles[a].force_electric, all.fields.vesicles[a].force_electric) <
+               1e-8);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(weight_is_carried_to_the_wall) {
   const Model model = pulled(-Vector3::UnitZ(), 1.0, 2.0, floor_without_slip());
   const std::vector<Matrix> positions{at_gap(*model.wall, prolate(10), 0.2)};
