@@ -34,11 +34,18 @@ Slopes unit_slopes(const Point& u, const Slopes& slopes) {
   return (slopes - unit * (unit.transpose() * slopes)) / u.norm();
 }
 
+/// The wall as the plane between a shape and its mirror image, with half of the slab between them.
+SeparatingPlane plane_beside(const FrozenShape& shape, const Wall& wall) {
+  const double gap = gap_to(wall, shape);
+  if (gap > 0.0) return {-wall.normal, -wall.normal.dot(wall.point), gap};
+  throw MeshError(fmt::format("the membrane reaches {:.6g} beyond the wall", -gap));
+}
+
 }  // namespace
 
-/// The third axis is the normal of the plane; the others follow what both shapes are stretched along across it, or, if
+/// The third axis is the normal of the plane; the others follow what the shapes are stretched along across it, or, if
 /// that is nothing, the coordinate axis that lies most across.
-Matrix3 BoxMap::axes_along(const Point& normal, const std::array<FrozenShape, 2>& shapes) {
+Matrix3 BoxMap::axes_along(const Point& normal, const std::vector<FrozenShape>& shapes) {
   constexpr double kMarked = 1.02;
   Eigen::Index least = 0;
   normal.cwiseAbs().minCoeff(&least);
@@ -67,16 +74,27 @@ Matrix3 BoxMap::core_of(const Box& box, const Matrix3& widths, double fraction) 
 }
 
 BoxMap::BoxMap(const std::array<FrozenShape, 2>& shapes, const BoxOptions& options)
-    : centre_(Point::Zero()), outer_radius_(options.outer_radius) {
-  const SeparatingPlane plane = separating_plane(shapes[0], shapes[1]);
+    : BoxMap({shapes[0], shapes[1]}, separating_plane(shapes[0], shapes[1]), options) {}
+
+BoxMap::BoxMap(const FrozenShape& shape, const Wall& wall, const BoxOptions& options)
+    : BoxMap({shape}, plane_beside(shape, wall), options) {}
+
+BoxMap::BoxMap(const std::vector<FrozenShape>& shapes, const SeparatingPlane& plane, const BoxOptions& options)
+    : beside_wall_(shapes.size() == 1), centre_(Point::Zero()), outer_radius_(options.outer_radius) {
   const Matrix3 axes = axes_along(plane.normal, shapes);
-  std::array<Extent, 2> extents;
-  for (int k = 0; k < 2; ++k) extents[k] = extent_along(axes, surface_samples(shapes[k]));
-  const double margin = options.margin * std::max(shapes[0].radius(), shapes[1].radius());
-  const Point low = extents[0].low.cwiseMin(extents[1].low).array() - margin;
-  const Point high = extents[0].high.cwiseMax(extents[1].high).array() + margin;
+  std::vector<Extent> extents;
+  double radius = 0.0;
+  for (const FrozenShape& shape : shapes) {
+    extents.push_back(extent_along(axes, surface_samples(shape)));
+    radius = std::max(radius, shape.radius());
+  }
+  // A box about a vesicle that is far from its wall is as wide as it is long.
+  const double margin = std::max(options.margin * radius, beside_wall_ ? plane.width : 0.0);
+  const Point low = extents.front().low.cwiseMin(extents.back().low).array() - margin;
+  Point high = extents.front().high.cwiseMax(extents.back().high).array() + margin;
+  if (beside_wall_) high[2] = 2.0 * plane.offset - low[2];
   centre_ = axes * (0.5 * (low + high));
-  for (int k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
     Point box_low = low, box_high = high;
     (k == 0 ? box_high : box_low)[2] = plane.offset;
     const Matrix3 widths = axes * (0.5 * (extents[k].high - extents[k].low)).asDiagonal();
@@ -93,7 +111,7 @@ BoxMap::BoxMap(const std::array<FrozenShape, 2>& shapes, const BoxOptions& optio
   const double reach = 0.5 * (high - low).norm();
   if (!(outer_radius_ > reach)) {
     throw MeshError(fmt::format(
-        "outer radius {:.6g} does not hold the boxes about the two membranes, which reach {:.6g} from their middle "
+        "outer radius {:.6g} does not hold the boxes about the membranes, which reach {:.6g} from their middle "
         "({:.6g}, {:.6g}, {:.6g})",
         outer_radius_, reach, centre_.x(), centre_.y(), centre_.z()));
   }
@@ -133,6 +151,21 @@ BoxMap::SurfacePoint BoxMap::on_box(const BoxBlock& block, const CubePoint& poin
   return {box.middle + box.half * point.g, box.half * point.g_slopes};
 }
 
+/// Where the lines from the membrane end: on the box, but on a wall above all below the membrane.
+BoxMap::SurfacePoint BoxMap::on_face(const BoxBlock& block, const CubePoint& point,
+                                     const SurfacePoint& membrane) const {
+  SurfacePoint result = on_box(block, point);
+  if (!beside_wall_ || block.axis != 2 || block.sign < 0.0) return result;
+  const Point normal = boxes_[block.vesicle].half.col(2).normalized();
+  const Matrix3 onto = Matrix3::Identity() - normal * normal.transpose();
+  const double x = point.v.x(), y = point.v.y(), share = (1.0 - x * x) * (1.0 - y * y);
+  const Point share_slope(-2.0 * x * (1.0 - y * y), -2.0 * y * (1.0 - x * x), 0.0);
+  const Point way = onto * (membrane.at - result.at);
+  result.at += share * way;
+  result.slopes += share * (onto * membrane.slopes - result.slopes) + way * (share_slope.transpose() * point.v_slopes);
+  return result;
+}
+
 BoxMap::SurfacePoint BoxMap::on_sphere(const SurfacePoint& on_box) const {
   const Point away = on_box.at - centre_;
   return {centre_ + outer_radius_ * away.normalized(), outer_radius_ * unit_slopes(away, on_box.slopes)};
@@ -142,8 +175,10 @@ Point BoxMap::place(const BoxBlock& block, const Point& at, const Point& on_memb
   const CubePoint point = cube_point(block, at);
   const double t = at.z();
   if (block.layer == BoxBlock::Layer::blend) return (1.0 - t) * on_core(block, point).at + t * on_membrane;
+  if (block.layer == BoxBlock::Layer::box) {
+    return (1.0 - t) * on_membrane + t * on_face(block, point, {on_membrane, Slopes::Zero()}).at;
+  }
   const SurfacePoint box = on_box(block, point);
-  if (block.layer == BoxBlock::Layer::box) return (1.0 - t) * on_membrane + t * box.at;
   return (1.0 - t) * box.at + t * on_sphere(box).at;
 }
 
@@ -171,7 +206,7 @@ Matrix3 BoxMap::derivative(const BoxBlock& block, const Point& at) const {
     to = on_membrane(block, point);
   } else if (block.layer == BoxBlock::Layer::box) {
     from = on_membrane(block, point);
-    to = on_box(block, point);
+    to = on_face(block, point, from);
   } else {
     from = on_box(block, point);
     to = on_sphere(from);

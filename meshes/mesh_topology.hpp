@@ -13,7 +13,7 @@ enum class CellShape { hexahedron, tetrahedron };
 /// Side of the membrane that a cell lies on.
 enum class Region { inside = 0, outside = 1 };
 /// What a face of a cell lies on.
-enum class FaceKind { interior, membrane, outer_sphere };
+enum class FaceKind { interior, membrane, outer_sphere, wall };
 
 /// Hexahedron: vertex v has the unit coordinates (v & 1, v >> 1 & 1, v >> 2 & 1); faces x = 0, x = 1, y = 0, y = 1,
 /// z = 0, z = 1. Tetrahedron: vertices (0,0,0), (1,0,0), (0,1,0), (0,0,1); faces {0,1,2}, {1,0,3}, {0,2,3}, {2,1,3}.

@@ -24,7 +24,7 @@ NodeWeights products(const Point& x, const Point& y, const Point& z) {
 }  // namespace
 
 SecondOrderMesh::SecondOrderMesh(const VolumeMesh& exact)
-    : VolumeMesh(exact.topology(), exact.centre(), exact.outer_radius()), exact_(exact) {
+    : VolumeMesh(exact.topology(), exact.centre(), exact.outer_radius(), exact.wall()), exact_(exact) {
   if (exact.cell_shape() != CellShape::hexahedron) throw std::invalid_argument("second-order mesh: not of hexahedra");
   std::vector<Point> units;
   for (const double z : {0.0, 0.5, 1.0}) {

@@ -1,17 +1,20 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "meshes/block.hpp"
 #include "meshes/frozen_shape.hpp"
 #include "meshes/mesh_topology.hpp"
 #include "meshes/types.hpp"
+#include "meshes/wall.hpp"
 
 namespace vehd::meshes {
 
 /// Curved volume mesh of the inside of a membrane γ and of the shell between γ and a sphere of radius R. γ may be the
-/// membranes of several vesicles.
+/// membranes of several vesicles. Beside a wall the shell ends on it: the centre of the sphere lies in the wall, and
+/// half of the sphere is left.
 ///
 /// The geometry is a smooth map of every unit cell. Both cells at a face map it to the same points, up to rounding; the
 /// outer boundary and, for block meshes, γ lie exactly where they should. Immutable, threads may share it.
@@ -29,6 +32,8 @@ class VolumeMesh {
   /// Centre and radius R of the outer sphere.
   [[nodiscard]] const Point& centre() const { return centre_; }
   [[nodiscard]] double outer_radius() const { return outer_radius_; }
+  /// The wall that the mesh ends on, if there is one.
+  [[nodiscard]] const std::optional<Wall>& wall() const { return wall_; }
 
   /// Position in space of a point of the unit cell.
   [[nodiscard]] virtual Point physical(int cell, const Point& unit) const = 0;
@@ -46,8 +51,8 @@ class VolumeMesh {
   [[nodiscard]] Point across(const InterfacePair& pair, const Point& inside_unit) const;
 
  protected:
-  VolumeMesh(MeshTopology topology, const Point& centre, double outer_radius)
-      : topology_(std::move(topology)), centre_(centre), outer_radius_(outer_radius) {}
+  VolumeMesh(MeshTopology topology, const Point& centre, double outer_radius, const std::optional<Wall>& wall = {})
+      : topology_(std::move(topology)), centre_(centre), outer_radius_(outer_radius), wall_(wall) {}
   VolumeMesh(const VolumeMesh&) = default;
   VolumeMesh(VolumeMesh&&) = default;
 
@@ -55,6 +60,7 @@ class VolumeMesh {
   MeshTopology topology_;
   Point centre_;
   double outer_radius_;
+  std::optional<Wall> wall_;
 };
 
 /// Membrane faces per edge of a block, layers and radii of the block mesh.

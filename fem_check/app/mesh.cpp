@@ -42,13 +42,13 @@ MeshResult written(const MeshTask& task, const std::vector<meshes::FrozenShape>&
 MeshResult mesh_of_two(const MeshTask& task, const std::vector<meshes::FrozenShape>& shapes, double factor) {
   if (task.family == "tet") throw InputError("--family tet: knows one vesicle; accepted for two: hex");
   const std::array pair{shapes[0], shapes[1]};
-  meshes::TwoVesicleOptions options = two_vesicle_options({}, pair);
+  meshes::BoxMeshOptions options = two_vesicle_options({}, pair);
   const meshes::BlockMeshOptions of_one;
   options.cells_per_edge = refined(of_one.cells_per_edge, factor);
   options.blend_layers = refined(of_one.blend_layers, factor);
   options.box_layers = refined(options.box_layers, factor);
   options.outer_layers = refined(options.outer_layers, factor);
-  const meshes::TwoVesicleMesh exact = meshes::make_two_vesicle_mesh(pair, options);
+  const meshes::BoxMesh exact = meshes::make_two_vesicle_mesh(pair, options);
   return written(task, shapes, meshes::SecondOrderMesh(exact), options.smallest_scaled_jacobian);
 }
 

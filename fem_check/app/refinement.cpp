@@ -76,9 +76,9 @@ meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, const 
   return options;
 }
 
-meshes::TwoVesicleOptions two_vesicle_options(const Refinement& refinement,
-                                              const std::array<meshes::FrozenShape, 2>& shapes) {
-  meshes::TwoVesicleOptions options;
+meshes::BoxMeshOptions two_vesicle_options(const Refinement& refinement,
+                                           const std::array<meshes::FrozenShape, 2>& shapes) {
+  meshes::BoxMeshOptions options;
   options.cells_per_edge = refinement.cells_per_edge;
   options.blend_layers = refinement.blend_layers;
   options.box_layers = refinement.box_layers;
@@ -97,8 +97,8 @@ Meshes::Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement&
     : points_per_edge_(refinement.points_per_edge) {
   if (shapes.size() == 2) {
     const std::array pair{shapes[0], shapes[1]};
-    mesh_ = std::make_shared<meshes::TwoVesicleMesh>(
-        meshes::make_two_vesicle_mesh(pair, two_vesicle_options(refinement, pair)));
+    mesh_ =
+        std::make_shared<meshes::BoxMesh>(meshes::make_two_vesicle_mesh(pair, two_vesicle_options(refinement, pair)));
     return;
   }
   if (shapes.size() != 1) throw meshes::MeshError(fmt::format("has {} vesicles; accepted: one or two", shapes.size()));

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fem_check/discretisation.hpp"
+#include "meshes/box_mesh.hpp"
 #include "meshes/frozen_shape.hpp"
-#include "meshes/two_vesicle_mesh.hpp"
 #include "meshes/volume_mesh.hpp"
 
 namespace vehd::fem_check {
@@ -64,8 +64,8 @@ struct Refinement {
 meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, const meshes::FrozenShape& shape);
 
 /// About two shapes.
-meshes::TwoVesicleOptions two_vesicle_options(const Refinement& refinement,
-                                              const std::array<meshes::FrozenShape, 2>& shapes);
+meshes::BoxMeshOptions two_vesicle_options(const Refinement& refinement,
+                                           const std::array<meshes::FrozenShape, 2>& shapes);
 
 /// The mesh of one or two shapes.
 class Meshes {

@@ -1,7 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "fem_check/inextensible_flow.hpp"
-#include "meshes/two_vesicle_mesh.hpp"
+#include "meshes/box_mesh.hpp"
 #include "tests/fem_check/cases.hpp"
 #include "tests/meshes/two_shapes.hpp"
 
@@ -19,11 +19,10 @@ struct TwoMesh {
 };
 
 Discretisation discretise(const Shapes& shapes, const TwoMesh& level) {
-  vehd::meshes::TwoVesicleOptions options;
+  vehd::meshes::BoxMeshOptions options;
   options.cells_per_edge = level.cells_per_edge;
   options.boxes.outer_radius = level.outer_radius;
-  return {std::make_shared<vehd::meshes::TwoVesicleMesh>(vehd::meshes::make_two_vesicle_mesh(shapes, options)),
-          level.degree};
+  return {std::make_shared<vehd::meshes::BoxMesh>(vehd::meshes::make_two_vesicle_mesh(shapes, options)), level.degree};
 }
 
 Shapes two_spheres(double gap) {

@@ -41,6 +41,7 @@ struct FaceCounts {
   int shared = 0;            ///< by two cells of one region
   int membrane = 0;          ///< one region, marked as membrane
   int outer = 0;             ///< one cell, marked as outer sphere
+  int wall = 0;              ///< one cell, marked as wall
   int wrong = 0;             ///< anything else
   double largest_gap = 0.0;  ///< between the two images of random points of shared faces
 };
@@ -70,6 +71,8 @@ inline FaceCounts count_faces(const VolumeMesh& mesh) {
       ++counts.membrane;
     } else if (at.size() == 1 && kind == FaceKind::outer_sphere && mesh.cell(at[0].cell).region == Region::outside) {
       ++counts.outer;
+    } else if (at.size() == 1 && kind == FaceKind::wall && mesh.cell(at[0].cell).region == Region::outside) {
+      ++counts.wall;
     } else if (at.size() == 2 && kind == FaceKind::interior) {
       ++counts.shared;
       const std::array<double, 4> weights = points.next(mesh.cell_shape());

@@ -1,10 +1,9 @@
-#include "meshes/two_vesicle_mesh.hpp"
-
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <string>
 
+#include "meshes/box_mesh.hpp"
 #include "meshes/mesh_quality.hpp"
 #include "meshes/separating_plane.hpp"
 #include "tests/meshes/mesh_checks.hpp"
@@ -18,7 +17,7 @@ namespace {
 std::vector<FrozenShape> list_of(const std::array<FrozenShape, 2>& shapes) { return {shapes[0], shapes[1]}; }
 
 /// Message of the MeshError that making a mesh ends with; empty if it does not.
-std::string mesh_error(const std::array<FrozenShape, 2>& shapes, const TwoVesicleOptions& options = {}) {
+std::string mesh_error(const std::array<FrozenShape, 2>& shapes, const BoxMeshOptions& options = {}) {
   try {
     make_two_vesicle_mesh(shapes, options);
   } catch (const MeshError& error) {
@@ -32,10 +31,10 @@ std::string mesh_error(const std::array<FrozenShape, 2>& shapes, const TwoVesicl
 BOOST_AUTO_TEST_SUITE(two_vesicle_mesh)
 
 BOOST_AUTO_TEST_CASE(thirty_six_blocks_meet_face_to_face) {
-  TwoVesicleOptions options;
+  BoxMeshOptions options;
   options.cells_per_edge = 2;
   options.boxes.outer_radius = 12.0;
-  const TwoVesicleMesh mesh = make_two_vesicle_mesh(two_shapes(0.2), options);
+  const BoxMesh mesh = make_two_vesicle_mesh(two_shapes(0.2), options);
   // 2³ in a core, 6 · 2² in each of 3 layers about it, 10 · 2² in each of 2 layers about both boxes.
   BOOST_TEST(mesh.n_cells() == 2 * (8 + 24 * 3) + 40 * 2);
   BOOST_TEST(mesh.n_vesicles() == 2);
@@ -55,9 +54,9 @@ BOOST_AUTO_TEST_CASE(thirty_six_blocks_meet_face_to_face) {
 
 BOOST_AUTO_TEST_CASE(membranes_lie_on_their_shapes_and_the_outer_boundary_on_its_sphere) {
   const std::array<FrozenShape, 2> shapes = two_shapes(0.2);
-  TwoVesicleOptions options;
+  BoxMeshOptions options;
   options.boxes.outer_radius = 12.0;
-  const TwoVesicleMesh mesh = make_two_vesicle_mesh(shapes, options);
+  const BoxMesh mesh = make_two_vesicle_mesh(shapes, options);
   for_each_membrane_point(mesh, [&](const InterfacePair& pair, const Point& inside) {
     const Point outside = mesh.across(pair, inside);
     const Point x = mesh.physical(pair.inside_cell, inside);
@@ -70,9 +69,9 @@ BOOST_AUTO_TEST_CASE(membranes_lie_on_their_shapes_and_the_outer_boundary_on_its
 }
 
 BOOST_AUTO_TEST_CASE(jacobian_is_the_derivative_of_the_map) {
-  TwoVesicleOptions options;
+  BoxMeshOptions options;
   options.boxes.outer_radius = 12.0;
-  const TwoVesicleMesh mesh = make_two_vesicle_mesh(two_shapes(1.0), options);
+  const BoxMesh mesh = make_two_vesicle_mesh(two_shapes(1.0), options);
   BOOST_TEST(jacobian_error(mesh) < 1e-8);
   BOOST_TEST(batch_gap(mesh) < 1e-13);
 }
@@ -97,9 +96,9 @@ BOOST_AUTO_TEST_CASE(plane_lies_across_the_gap_in_its_middle) {
 BOOST_AUTO_TEST_CASE(elements_are_well_formed_at_every_gap_and_hold_the_volumes) {
   for (const double gap : {3.0, 1.0, 0.2}) {
     const std::array<FrozenShape, 2> shapes = two_shapes(gap);
-    TwoVesicleOptions options;
+    BoxMeshOptions options;
     options.boxes.outer_radius = 12.0;
-    const TwoVesicleMesh mesh = make_two_vesicle_mesh(shapes, options);
+    const BoxMesh mesh = make_two_vesicle_mesh(shapes, options);
     const MeshQuality found = quality(mesh, list_of(shapes), 8);
     BOOST_TEST_MESSAGE("gap " << gap << ": scaled Jacobian " << found.smallest_scaled_jacobian << " at "
                               << found.worst_position.transpose());
@@ -119,11 +118,11 @@ BOOST_AUTO_TEST_CASE(mesh_does_not_depend_on_unit_or_place) {
     coefficients.row(0) += std::sqrt(4.0 * std::numbers::pi) * Eigen::RowVector3d(1.0, -2.0, 3.0);
     return FrozenShape(1e-6 * coefficients);
   };
-  TwoVesicleOptions options;
+  BoxMeshOptions options;
   options.boxes.outer_radius = 12.0;
-  const TwoVesicleMesh here = make_two_vesicle_mesh(two_shapes(0.2), options);
+  const BoxMesh here = make_two_vesicle_mesh(two_shapes(0.2), options);
   options.boxes.outer_radius = 12e-6;
-  const TwoVesicleMesh there = make_two_vesicle_mesh({moved(positions[0]), moved(positions[1])}, options);
+  const BoxMesh there = make_two_vesicle_mesh({moved(positions[0]), moved(positions[1])}, options);
   for (int c = 0; c < here.n_cells(); ++c) {
     const Point expected = 1e-6 * (here.physical(c, {0.3, 0.6, 0.8}) + Point(1.0, -2.0, 3.0));
     BOOST_TEST((there.physical(c, {0.3, 0.6, 0.8}) - expected).norm() < 1e-15);
@@ -133,7 +132,7 @@ BOOST_AUTO_TEST_CASE(mesh_does_not_depend_on_unit_or_place) {
 BOOST_AUTO_TEST_CASE(what_cannot_be_meshed_is_refused) {
   const std::array<FrozenShape, 2> shapes = two_shapes(0.2);
   BOOST_TEST(mesh_error({shapes[0], shapes[0]}).find("no plane separates the two membranes") == 0);
-  TwoVesicleOptions options;
+  BoxMeshOptions options;
   options.boxes.outer_radius = 3.0;
   BOOST_TEST(mesh_error(shapes, options).find("outer radius 3 does not hold the boxes") == 0);
   options.boxes.outer_radius = 12.0;

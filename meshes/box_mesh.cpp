@@ -1,4 +1,4 @@
-#include "meshes/two_vesicle_mesh.hpp"
+#include "meshes/box_mesh.hpp"
 
 #include <fmt/format.h>
 
@@ -16,8 +16,9 @@ using BoxLayer = BoxBlock::Layer;
 
 class BoxMeshBuilder {
  public:
-  BoxMeshBuilder(const TwoVesicleOptions& options, const BoxMap& map)
-      : n_(options.cells_per_edge), map_(map), across_(even_breaks(n_)) {
+  /// @param n_vesicles  1: beside a wall
+  BoxMeshBuilder(const BoxMeshOptions& options, const BoxMap& map, int n_vesicles)
+      : n_(options.cells_per_edge), n_vesicles_(n_vesicles), map_(map), across_(even_breaks(n_)) {
     topology.shape = CellShape::hexahedron;
     int level = 0;
     for (const auto& [layer, borders] :
@@ -32,17 +33,17 @@ class BoxMeshBuilder {
   }
 
   MeshTopology topology;
-  std::vector<TwoVesicleMesh::CellPlace> places;
+  std::vector<BoxMesh::CellPlace> places;
 
   void build() {
-    for (int vesicle = 0; vesicle < 2; ++vesicle) {
+    for (int vesicle = 0; vesicle < n_vesicles_; ++vesicle) {
       add_core(vesicle);
       for (const Shell& shell : shells_) {
         for (int axis = 0; axis < 3; ++axis) {
           for (const double sign : {-1.0, 1.0}) {
-            // The face in which the boxes meet has nothing beyond it.
-            const bool shared = axis == 2 && (sign > 0.0) == (vesicle == 0);
-            if (shell.layer != BoxLayer::outer || !shared) add_shell({shell.layer, vesicle, axis, sign}, shell);
+            // The face in which the boxes meet, or one meets the wall, has nothing beyond it.
+            if (shell.layer != BoxLayer::outer || !faces_plane(vesicle, axis, sign))
+              add_shell({shell.layer, vesicle, axis, sign}, shell);
           }
         }
       }
@@ -58,6 +59,7 @@ class BoxMeshBuilder {
     int first_level;
     std::vector<double> borders;
   };
+  static bool faces_plane(int vesicle, int axis, double sign) { return axis == 2 && (sign > 0.0) == (vesicle == 0); }
   /// Vesicle, level and place on the cube, from −n to n: where a vertex is, the same for all blocks that meet there.
   using Key = std::array<int, 5>;
 
@@ -96,6 +98,12 @@ class BoxMeshBuilder {
           if (shell.layer == BoxLayer::box && k == 0) cell.faces[kInnerFace] = FaceKind::membrane;
           if (shell.layer == BoxLayer::blend && k == layers - 1) cell.faces[kOuterFace] = FaceKind::membrane;
           if (shell.layer == BoxLayer::outer && k == layers - 1) cell.faces[kOuterFace] = FaceKind::outer_sphere;
+          if (n_vesicles_ == 2) continue;
+          const bool box_on_wall = shell.layer == BoxLayer::box && faces_plane(0, block.axis, block.sign);
+          if (box_on_wall && k == layers - 1) cell.faces[kOuterFace] = FaceKind::wall;
+          // The blocks outside stand on the wall with the end of the coordinate along its normal.
+          if (shell.layer != BoxLayer::outer || block.axis == 2) continue;
+          if ((first == 2 ? i : j) == n_ - 1) cell.faces[first == 2 ? 1 : 3] = FaceKind::wall;
         }
       }
     }
@@ -122,7 +130,7 @@ class BoxMeshBuilder {
     return topology.cells.back();
   }
 
-  int n_;
+  int n_, n_vesicles_;
   const BoxMap& map_;
   std::vector<double> across_;
   std::vector<Shell> shells_;
@@ -132,11 +140,11 @@ class BoxMeshBuilder {
 
 void require_two(bool holds, const char* what, double value, const char* accepted) {
   if (!holds) {
-    throw std::invalid_argument(fmt::format("mesh of two vesicles: {} is {}, but must be {}", what, value, accepted));
+    throw std::invalid_argument(fmt::format("mesh of boxes: {} is {}, but must be {}", what, value, accepted));
   }
 }
 
-void require_options(const TwoVesicleOptions& o) {
+void require_options(const BoxMeshOptions& o) {
   require_two(o.cells_per_edge >= 1, "cells_per_edge", o.cells_per_edge, "at least 1");
   require_two(o.blend_layers >= 1, "blend_layers", o.blend_layers, "at least 1");
   require_two(o.box_layers >= 1, "box_layers", o.box_layers, "at least 1");
@@ -150,48 +158,62 @@ void require_options(const TwoVesicleOptions& o) {
 
 }  // namespace
 
-TwoVesicleMesh::TwoVesicleMesh(MeshTopology topology, std::vector<CellPlace> places, std::shared_ptr<const BoxMap> map,
-                               double outer_radius)
-    : VolumeMesh(std::move(topology), map->centre(), outer_radius), places_(std::move(places)), map_(std::move(map)) {}
+BoxMesh::BoxMesh(MeshTopology topology, std::vector<CellPlace> places, std::shared_ptr<const BoxMap> map,
+                 double outer_radius, const std::optional<Wall>& wall)
+    : VolumeMesh(std::move(topology), map->centre(), outer_radius, wall),
+      places_(std::move(places)),
+      map_(std::move(map)) {}
 
-Point TwoVesicleMesh::in_block(int cell, const Point& unit) const {
+Point BoxMesh::in_block(int cell, const Point& unit) const {
   const CellPlace& place = places_[cell];
   return place.low + unit.cwiseProduct(place.high - place.low);
 }
 
-Point TwoVesicleMesh::physical(int cell, const Point& unit) const {
+Point BoxMesh::physical(int cell, const Point& unit) const {
   return map_->position(places_[cell].block, in_block(cell, unit));
 }
 
-std::vector<Point> TwoVesicleMesh::physical_points(int cell, const std::vector<Point>& units) const {
+std::vector<Point> BoxMesh::physical_points(int cell, const std::vector<Point>& units) const {
   Eigen::Matrix3Xd points(3, units.size());
   for (std::size_t i = 0; i < units.size(); ++i) points.col(i) = in_block(cell, units[i]);
   points = map_->positions(places_[cell].block, points);
   return {points.colwise().begin(), points.colwise().end()};
 }
 
-Matrix3 TwoVesicleMesh::jacobian(int cell, const Point& unit) const {
+Matrix3 BoxMesh::jacobian(int cell, const Point& unit) const {
   const CellPlace& place = places_[cell];
   return map_->derivative(place.block, in_block(cell, unit)) * (place.high - place.low).asDiagonal();
 }
 
-Point TwoVesicleMesh::direction(int cell, const Point& unit) const {
+Point BoxMesh::direction(int cell, const Point& unit) const {
   if (places_[cell].block.layer == BoxLayer::core) {
     throw std::logic_error(fmt::format("cell {} lies in a core: no point of it has a direction", cell));
   }
   return map_->direction(places_[cell].block, in_block(cell, unit));
 }
 
-TwoVesicleMesh make_two_vesicle_mesh(const std::array<FrozenShape, 2>& shapes, const TwoVesicleOptions& options) {
-  require_options(options);
-  auto map = std::make_shared<const BoxMap>(shapes, options.boxes);
-  BoxMeshBuilder builder(options, *map);
+namespace {
+
+BoxMesh make_box_mesh(const std::shared_ptr<const BoxMap>& map, const std::vector<FrozenShape>& shapes,
+                      const std::optional<Wall>& wall, const BoxMeshOptions& options) {
+  BoxMeshBuilder builder(options, *map, static_cast<int>(shapes.size()));
   builder.build();
-  TwoVesicleMesh mesh(std::move(builder.topology), std::move(builder.places), std::move(map),
-                      options.boxes.outer_radius);
+  BoxMesh mesh(std::move(builder.topology), std::move(builder.places), map, options.boxes.outer_radius, wall);
   constexpr int kGaussPoints = 3;
-  require_quality(quality(mesh, {shapes[0], shapes[1]}, kGaussPoints), options.smallest_scaled_jacobian);
+  require_quality(quality(mesh, shapes, kGaussPoints), options.smallest_scaled_jacobian);
   return mesh;
+}
+
+}  // namespace
+
+BoxMesh make_two_vesicle_mesh(const std::array<FrozenShape, 2>& shapes, const BoxMeshOptions& options) {
+  require_options(options);
+  return make_box_mesh(std::make_shared<const BoxMap>(shapes, options.boxes), {shapes[0], shapes[1]}, {}, options);
+}
+
+BoxMesh make_mesh_beside_wall(const FrozenShape& shape, const Wall& wall, const BoxMeshOptions& options) {
+  require_options(options);
+  return make_box_mesh(std::make_shared<const BoxMap>(shape, wall, options.boxes), {shape}, wall, options);
 }
 
 }  // namespace vehd::meshes

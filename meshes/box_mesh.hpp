@@ -9,8 +9,8 @@
 
 namespace vehd::meshes {
 
-/// Cells and radii of a mesh about two membranes.
-struct TwoVesicleOptions {
+/// Cells and radii of a mesh about two membranes, or of the half that one beside a wall has.
+struct BoxMeshOptions {
   int cells_per_edge = 3;     ///< of each of the 6 blocks that a membrane is divided into; also in the cores
   int blend_layers = 1;       ///< between core and membrane
   int box_layers = 2;         ///< between a membrane and its box
@@ -21,9 +21,9 @@ struct TwoVesicleOptions {
   double smallest_scaled_jacobian = 0.02;  ///< below it an element is too flat
 };
 
-/// Hexahedra in 36 blocks about two membranes (BoxMap). The interface is split. Topology vertices are positions in
-/// space.
-class TwoVesicleMesh final : public VolumeMesh {
+/// Hexahedra in 36 blocks about two membranes, or in 18 about one beside a wall (BoxMap). The interface is split.
+/// Topology vertices are positions in space.
+class BoxMesh final : public VolumeMesh {
  public:
   /// The part of a block that a cell fills, in the coordinates of BoxMap.
   struct CellPlace {
@@ -31,8 +31,8 @@ class TwoVesicleMesh final : public VolumeMesh {
     Point low, high;
   };
 
-  TwoVesicleMesh(MeshTopology topology, std::vector<CellPlace> places, std::shared_ptr<const BoxMap> map,
-                 double outer_radius);
+  BoxMesh(MeshTopology topology, std::vector<CellPlace> places, std::shared_ptr<const BoxMap> map, double outer_radius,
+          const std::optional<Wall>& wall);
 
   [[nodiscard]] Point physical(int cell, const Point& unit) const override;
   [[nodiscard]] std::vector<Point> physical_points(int cell, const std::vector<Point>& units) const override;
@@ -51,6 +51,12 @@ class TwoVesicleMesh final : public VolumeMesh {
 /// @throws std::invalid_argument if an option is out of range
 /// Accuracy: membranes and outer sphere where they should be to 1e-13, neighbours meet to 1e-13
 /// (tests/meshes/two_vesicle_mesh_test.cpp)
-TwoVesicleMesh make_two_vesicle_mesh(const std::array<FrozenShape, 2>& shapes, const TwoVesicleOptions& options = {});
+BoxMesh make_two_vesicle_mesh(const std::array<FrozenShape, 2>& shapes, const BoxMeshOptions& options = {});
+
+/// @throws MeshError if the shape crosses the wall, if the outer sphere does not hold the boxes, or if an element is
+///         inverted or too flat
+/// @throws std::invalid_argument if an option is out of range
+/// Accuracy: as make_two_vesicle_mesh, and the wall (tests/meshes/wall_mesh_test.cpp)
+BoxMesh make_mesh_beside_wall(const FrozenShape& shape, const Wall& wall, const BoxMeshOptions& options = {});
 
 }  // namespace vehd::meshes
