@@ -16,6 +16,19 @@ Eigen::MatrixXd exterior_potential(int degree, double robin);
 /// has the Stokeslet and the rotlet, l = 2 the stresslet.
 Eigen::MatrixXd exterior_flow(int degree, double robin);
 
+/// Beside a wall outside of which a field goes on as its mirror image, exactly: one of these matrices for the half
+/// sphere on which the field is known.
+/// @param mirror  [components x components], the values at the image of a point over those at the point: 1 at an
+///                insulating wall, −1 at an electrode, I − 2 n nᵀ for the flow along a stress-free wall
+/// @param normal  n, of the wall
+Eigen::MatrixXd continued(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& mirror, const Vector3& normal);
+
+/// As exterior_flow, for flows that vanish on a wall through the centre of the sphere: sums of those of its fields that
+/// decay with one power of r, −1 to −degree, and vanish there. On the half sphere these are not orthogonal. For a
+/// velocity that is a sum U c of them the condition −p n + μ ∂u/∂r = −μ T c is exact; of any other one, c is such that
+/// the rest is orthogonal to T, and has −robin μ times itself.
+Eigen::MatrixXd exterior_flow_at_rest_on_wall(int degree, double robin, const Vector3& normal);
+
 /// A symmetric matrix on the coefficients of the low harmonics of fields on the outer sphere, as an operator on its
 /// nodes: to += B S Bᵀ from, B the integrals of harmonics times nodal functions.
 class HarmonicTerms {

@@ -48,15 +48,16 @@ void begin_from(const FlowSolution& start, const StokesSystem& system, Blocks& s
 }
 
 FlowOperators::FlowOperators(const Discretisation& discretisation, const PerVesicle<double>& viscosity_in,
-                             double viscosity_out)
+                             double viscosity_out, WallFlow wall)
     : data_([&] {
         Stopwatch watch;
-        StokesSystem system(discretisation, {viscosity_in, viscosity_out});
+        StokesSystem system(discretisation, {viscosity_in, viscosity_out}, wall);
         return std::make_shared<const Data>(Data{std::move(system), discretisation.degree(), watch.lap()});
       }()) {}
 
 FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem, const FlowSolution* start) {
-  return solve_flow(FlowOperators(discretisation, problem.viscosity_in, problem.viscosity_out), problem, start);
+  return solve_flow(FlowOperators(discretisation, problem.viscosity_in, problem.viscosity_out, problem.wall), problem,
+                    start);
 }
 
 FlowSolution solve_flow(const FlowOperators& operators, const FlowProblem& problem, const FlowSolution* start) {

@@ -8,6 +8,10 @@
 
 namespace vehd::fem_check {
 
+/// What holds at the wall, where the mesh has one: the disturbance v − A x rests there, or it goes along it and exerts
+/// no stress along it.
+enum class WallFlow { no_slip, stress_free };
+
 /// Stokes flow −∇p + μΔv = 0 on both sides of γ, all membranes of the mesh, v continuous, v → A x far away. Velocities
 /// have the degree of the discretisation, pressures one less; the pressure may jump across γ.
 struct FlowProblem {
@@ -16,17 +20,19 @@ struct FlowProblem {
   double dilation = 0.0;               ///< ∇_γ·v on γ where a tension prescribes it
   PerVesicle<double> viscosity_in = 1.0;
   double viscosity_out = 1.0;
+  WallFlow wall = WallFlow::no_slip;
   double tolerance = 1e-10;  ///< of the linear solver, relative
   int exterior_degree = usual_exterior_degree;
 };
 
-/// Operators and preconditioners of flows between fluids of the same viscosities on one discretisation: set up once for
-/// any number of problems. Immutable.
+/// Operators and preconditioners of flows between fluids of the same viscosities, and beside a wall of one kind, on one
+/// discretisation: set up once for any number of problems. Immutable.
 class FlowOperators {
  public:
   struct Data;
   /// @throws std::invalid_argument for a degree below 2 or a viscosity that is not positive
-  FlowOperators(const Discretisation& discretisation, const PerVesicle<double>& viscosity_in, double viscosity_out);
+  FlowOperators(const Discretisation& discretisation, const PerVesicle<double>& viscosity_in, double viscosity_out,
+                WallFlow wall = WallFlow::no_slip);
 
   /// For the solvers.
   [[nodiscard]] const Data& data() const { return *data_; }
@@ -70,7 +76,7 @@ class FlowSolution {
 FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem,
                         const FlowSolution* start = nullptr);
 /// The same with operators at hand.
-/// @throws std::invalid_argument also for a problem with other viscosities
+/// @throws std::invalid_argument also for a problem with other viscosities or another wall
 FlowSolution solve_flow(const FlowOperators& operators, const FlowProblem& problem,
                         const FlowSolution* start = nullptr);
 

@@ -191,7 +191,7 @@ InextensibleOperators::InextensibleOperators(const Discretisation& discretisatio
 
 InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem,
                                          const InextensibleFlow* start) {
-  const FlowOperators flow(discretisation, problem.viscosity_in, problem.viscosity_out);
+  const FlowOperators flow(discretisation, problem.viscosity_in, problem.viscosity_out, problem.wall);
   return solve_inextensible_flow(InextensibleOperators(discretisation, flow), problem, start);
 }
 

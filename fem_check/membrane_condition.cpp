@@ -70,6 +70,7 @@ Fixed fixed_nodes(const PotentialProblem& problem, int n_vesicles) {
     });
   }
   fixed.outer = problem.outer.kind == OuterCondition::Kind::dirichlet;
+  fixed.wall = problem.wall == WallField::electrode;
   // Given fluxes leave the constant outside free; the node is far from γ.
   fixed.outer_value = problem.outer.kind == OuterCondition::Kind::neumann;
   for (int vesicle = 0; vesicle < n_vesicles; ++vesicle) {

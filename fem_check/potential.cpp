@@ -28,8 +28,13 @@ class PotentialEquations {
                    Multigrid::Finest::solves) {
     if (radiates()) {
       const Stiffness& finest = multigrid_.finest();
+      Eigen::MatrixXd matrix = exterior_potential(data.problem.exterior_degree, dipole_coefficient);
+      if (const std::optional<meshes::Wall>& wall = space_.mesh->wall()) {
+        const double parity = data.problem.wall == WallField::electrode ? -1.0 : 1.0;
+        matrix = continued(matrix, Eigen::MatrixXd::Constant(1, 1, parity), wall->normal);
+      }
       exterior_ = std::make_unique<HarmonicTerms>(space_, finest.handler(), finest.constraints(), finest.outer(), 1,
-                                                  exterior_potential(data.problem.exterior_degree, dipole_coefficient));
+                                                  std::move(matrix));
     }
     take_field();
     multigrid_.finest().initialize(unknowns_);

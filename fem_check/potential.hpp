@@ -52,6 +52,10 @@ struct OuterCondition {
   std::function<double(const Vector3&)> value;  ///< absent: zero
 };
 
+/// What holds at the wall, where the mesh has one: no current through it, or ψ = 0. φ itself is constant there if E_∞
+/// is normal to it.
+enum class WallField { insulating, electrode };
+
 /// Δφ = 0 on both sides of γ, φ → −E_∞·x far away. γ is all membranes of the mesh.
 struct PotentialProblem {
   Vector3 field = Vector3::Zero();  ///< E_∞
@@ -62,6 +66,7 @@ struct PotentialProblem {
   MembraneCondition membrane = SteadyMembrane{};
   ScalarOnSurface current_jump;  ///< [[σ ∂φ/∂n]]; absent: zero, current is continuous
   OuterCondition outer;
+  WallField wall = WallField::insulating;
   double tolerance = 3e-12;  ///< of the linear solver, relative
   int exterior_degree = usual_exterior_degree;
 };

@@ -99,11 +99,12 @@ void find_faces(Space& space) {
   for (int c = 0; c < space.mesh->n_cells(); ++c) {
     const auto inner = inverse(space.mesh_vertex[c]);
     for (int f = 0; f < 6; ++f) {
-      if (space.mesh->cell(c).faces[f] != FaceKind::outer_sphere) continue;
+      const FaceKind kind = space.mesh->cell(c).faces[f];
+      if (kind != FaceKind::outer_sphere && kind != FaceKind::wall) continue;
       std::array<UnitPoint, 4> corners;
       const auto& vertices = meshes::face_vertices(CellShape::hexahedron, f);
       for (int k = 0; k < 4; ++k) corners[k] = unit_vertex(inner[vertices[k]]);
-      space.outer.push_back({static_cast<unsigned>(c), face_of(corners)});
+      (kind == FaceKind::wall ? space.wall : space.outer).push_back({static_cast<unsigned>(c), face_of(corners)});
     }
   }
 }

@@ -24,7 +24,7 @@ struct MembraneFace {
   std::array<UnitPoint, 4> outer_corners;
 };
 
-/// A face on the outer sphere.
+/// A face on the outer sphere or on the wall.
 struct OuterFace {
   unsigned cell;
   unsigned face;
@@ -64,6 +64,7 @@ struct Space {
   int n_vesicles;
   std::vector<MembraneFace> membrane;
   std::vector<OuterFace> outer;
+  std::vector<OuterFace> wall;
   std::vector<Vectors> mapping_nodes;         ///< of every cell, in deal.II's order, without unit
   std::vector<dealii::BoundingBox<3>> boxes;  ///< of these
   std::shared_ptr<const MembraneTrace> trace;

@@ -104,7 +104,7 @@ std::unique_ptr<SurfaceTerms> surface_terms(const Space& space, const dealii::Do
 
 }  // namespace
 
-Constraints make_constraints(const dealii::DoFHandler<3>& handler, const SheetPairs& pairs,
+Constraints make_constraints(const Space& space, const dealii::DoFHandler<3>& handler, const SheetPairs& pairs,
                              const std::vector<DofIndex>& outer_dofs, const Fixed& fixed) {
   Constraints constraints;
   constraints.reinit(dealii::complete_index_set(handler.n_dofs()));
@@ -118,6 +118,9 @@ Constraints make_constraints(const dealii::DoFHandler<3>& handler, const SheetPa
   }
   if (fixed.outer) {
     for (const DofIndex dof : outer_dofs) constraints.add_line(dof);
+  }
+  if (fixed.wall) {
+    for (const DofIndex dof : nodes_on(space.wall, space, handler)) constraints.add_line(dof);
   }
   if (fixed.outer_value && !constraints.is_constrained(outer_dofs.front())) constraints.add_line(outer_dofs.front());
   // The first pair of a membrane is a corner of its first face, whatever the degree.
@@ -135,7 +138,7 @@ Stiffness::Stiffness(const Space& space, const dealii::DoFHandler<3>& handler, c
       kernel_(degree(), n_points),
       pairs_(pairs_of(space, handler)),
       outer_(space, handler),
-      constraints_(make_constraints(handler, pairs_, outer_.dofs(), fixed)) {
+      constraints_(make_constraints(space, handler, pairs_, outer_.dofs(), fixed)) {
   none_.reinit(dealii::complete_index_set(handler.n_dofs()));
   none_.close();
   loops_ = make_cell_loops(space, {{&handler, &constraints_}, {&handler, &none_}}, n_points);

@@ -18,15 +18,16 @@ struct ScalarForm {
 /// How the two values at each node of γ belong together.
 enum class Tie { none, inner_follows_outer, outer_follows_inner };
 
-/// Homogeneous constraints: ties on γ, values on the outer sphere that are given, and one value of a side that would
-/// float.
+/// Homogeneous constraints: ties on γ, values on the outer sphere and on the wall that are given, and one value of a
+/// side that would float.
 struct Fixed {
   PerVesicle<Tie> tie = Tie::none;
   bool outer = false;
+  bool wall = false;
   bool outer_value = false;
   std::vector<int> floating{};  ///< vesicles whose inside would float
 };
-Constraints make_constraints(const dealii::DoFHandler<3>& handler, const SheetPairs& pairs,
+Constraints make_constraints(const Space& space, const dealii::DoFHandler<3>& handler, const SheetPairs& pairs,
                              const std::vector<DofIndex>& outer_dofs, const Fixed& fixed);
 
 /// A scalar form on the elements of one handler as an operator: no matrix, the cells are integrated in every product.

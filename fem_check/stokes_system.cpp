@@ -12,8 +12,9 @@ namespace vehd::fem_check {
 
 namespace {
 
-/// The velocities of both sides are one.
-Fixed sheets_tied() { return {.tie = Tie::inner_follows_outer}; }
+/// The velocities of both sides are one. On a wall without slip all components vanish, on a stress-free one that along
+/// its normal.
+Fixed fixed_nodes(bool wall) { return {.tie = Tie::inner_follows_outer, .wall = wall}; }
 /// −p n + μ ∂u/∂r = −(4μ/R) u of a stresslet; the preconditioner has it for every flow on the outer sphere.
 constexpr double kOuterCoefficient = 4.0;
 
@@ -91,8 +92,16 @@ struct StokesSystem::Implementation {
   std::shared_ptr<const Space> space;
   Viscosities viscosity;
   PerVesicle<double> ratio;  // μ_i/μ_e
+  WallFlow wall;
   std::shared_ptr<const dealii::DoFHandler<3>> pressure_dofs;
   Multigrid multigrid;
+  /// At a stress-free wall: of the component along its normal, which is fixed there.
+  struct Slip {
+    Multigrid normal_component;
+    Matrix3 frame;                // columns; the normal is the last one
+    std::vector<unsigned> nodes;  // on the wall, free, local numbers
+  };
+  std::unique_ptr<Slip> slip;
   StokesCells cells;
   SurfaceTerms outer;
   std::vector<unsigned> tied;  // local numbers
@@ -109,7 +118,9 @@ struct StokesSystem::Implementation {
   };
   std::vector<InnerPressure> inner_pressures;
 
-  Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities);
+  Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities, WallFlow wall_flow);
+  [[nodiscard]] ScalarForm diffusion_form() const { return {ratio, 1.0, 0.0, kOuterCoefficient}; }
+  void add_slip();
   /// Adds those of one vesicle.
   void add_rotations(const StokesSystem& system, int vesicle);
   void find_rotation_energies(const StokesSystem& system);
@@ -118,17 +129,19 @@ struct StokesSystem::Implementation {
   void precondition_pressure(Distributed& to, const Distributed& from) const;
 };
 
-StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities)
+StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities,
+                                             WallFlow wall_flow)
     : space(std::move(where)),
       viscosity(viscosities),
       ratio(per_vesicle(space->n_vesicles,
                         [&](int vesicle) { return viscosities.inside[vesicle] / viscosities.outside; })),
+      wall(wall_flow),
       pressure_dofs([&] {
         auto handler = std::make_shared<dealii::DoFHandler<3>>(space->triangulation);
         handler->distribute_dofs(dealii::FE_Q<3>(space->element.degree - 1));
         return handler;
       }()),
-      multigrid(*space, sheets_tied(), {ratio, 1.0, 0.0, kOuterCoefficient}, Multigrid::Finest::preconditions),
+      multigrid(*space, fixed_nodes(wall == WallFlow::no_slip), diffusion_form(), Multigrid::Finest::preconditions),
       cells(*space, *pressure_dofs, multigrid.finest().constraints(), ratio),
       outer(outer_terms(multigrid.finest(), cells.contrast_outside())),
       pressure_mass(cells, pressure_dofs->n_dofs()) {
@@ -140,11 +153,27 @@ StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where,
     }
   }
   pressure_inverse.initialize(pressure_mass, pressure_data(cells));
+  if (space->mesh->wall() && wall == WallFlow::stress_free) add_slip();
+}
+
+void StokesSystem::Implementation::add_slip() {
+  const Vector3& normal = space->mesh->wall()->normal;
+  Matrix3 frame;
+  frame << normal.unitOrthogonal(), normal.cross(normal.unitOrthogonal()), normal;
+  slip.reset(new Slip{{*space, fixed_nodes(true), diffusion_form(), Multigrid::Finest::preconditions}, frame, {}});
+  Distributed velocity;
+  cells.initialize_velocity(velocity);
+  for (const DofIndex dof : nodes_on(space->wall, *space, multigrid.finest().handler())) {
+    if (velocity.locally_owned_elements().is_element(dof)) {
+      slip->nodes.push_back(velocity.get_partitioner()->global_to_local(dof));
+    }
+  }
 }
 
 void StokesSystem::Implementation::add_rotations(const StokesSystem& system, int vesicle) {
   const std::vector<Vector3> places = node_places(*space);
-  const RigidPart rigid = space->n_vesicles == 1 ? rigid_in_a_sphere(*space, places) : rigid_in_cells(*space, vesicle);
+  const bool alone = space->n_vesicles == 1 && !space->mesh->wall();
+  const RigidPart rigid = alone ? rigid_in_a_sphere(*space, places) : rigid_in_cells(*space, vesicle);
   for (unsigned axis = 0; axis < 3; ++axis) {
     Blocks unit = system.zero();
     for (unsigned d = 0; d < 3; ++d) {
@@ -191,10 +220,11 @@ void StokesSystem::Implementation::add_inner_pressure(int vesicle) {
   pressure.factor = 1.0 / volume;
 }
 
-StokesSystem::StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity, int exterior_degree)
+StokesSystem::StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity, WallFlow wall,
+                           int exterior_degree)
     : exterior_degree_(exterior_degree) {
   require_valid(discretisation, viscosity);
-  const auto implementation = std::make_shared<Implementation>(discretisation.space(), viscosity);
+  const auto implementation = std::make_shared<Implementation>(discretisation.space(), viscosity, wall);
   implementation_ = implementation;
   exterior_ = exterior_terms(exterior_degree);
   for (int vesicle = 0; vesicle < space().n_vesicles; ++vesicle) {
@@ -213,9 +243,18 @@ StokesSystem StokesSystem::with_exterior(int exterior_degree) const {
 }
 
 std::shared_ptr<const HarmonicTerms> StokesSystem::exterior_terms(int exterior_degree) const {
+  const std::optional<meshes::Wall>& wall = space().mesh->wall();
+  Eigen::MatrixXd matrix;
+  if (wall && implementation_->wall == WallFlow::no_slip) {
+    matrix = exterior_flow_at_rest_on_wall(exterior_degree, kOuterCoefficient, wall->normal);
+  } else {
+    matrix = exterior_flow(exterior_degree, kOuterCoefficient);
+    if (wall) {
+      matrix = continued(matrix, Matrix3::Identity() - 2.0 * wall->normal * wall->normal.transpose(), wall->normal);
+    }
+  }
   return std::make_shared<const HarmonicTerms>(space(), diffusion().handler(), diffusion().constraints(),
-                                               diffusion().outer(), 3,
-                                               exterior_flow(exterior_degree, kOuterCoefficient));
+                                               diffusion().outer(), 3, std::move(matrix));
 }
 
 StokesSystem system_for(const FlowOperators& operators, const FlowProblem& problem) {
@@ -223,6 +262,9 @@ StokesSystem system_for(const FlowOperators& operators, const FlowProblem& probl
   const Viscosities& given = system.viscosities();
   if (given.outside != problem.viscosity_out || given.inside.values() != problem.viscosity_in.values()) {
     throw std::invalid_argument("the operators of the flow were made for other viscosities than the problem has");
+  }
+  if (system.wall() != problem.wall) {
+    throw std::invalid_argument("the operators of the flow were made for another wall than the problem has");
   }
   return system.with_exterior(problem.exterior_degree);
 }
@@ -268,10 +310,30 @@ void StokesSystem::vmult(Blocks& to, const Blocks& from) const {
   for (unsigned d = 0; d < 3; ++d) {
     for (const unsigned dof : implementation_->tied) to.block(d).local_element(dof) = from.block(d).local_element(dof);
   }
+  if (!implementation_->slip) return;
+  // Functions whose component along the normal vanishes on the wall: nothing else is in the range or, in a solver,
+  // in the argument.
+  const Vector3 normal = implementation_->slip->frame.col(2);
+  for (const unsigned node : implementation_->slip->nodes) {
+    double along = 0.0;
+    for (unsigned d = 0; d < 3; ++d) along += normal[d] * to.block(d).local_element(node);
+    for (unsigned d = 0; d < 3; ++d) to.block(d).local_element(node) -= along * normal[d];
+  }
 }
 
 void StokesSystem::Implementation::precondition_velocity(Blocks& to, const Blocks& from) const {
-  for (unsigned d = 0; d < 3; ++d) multigrid.vmult(to.block(d), from.block(d));
+  if (slip) {
+    Distributed residual(from.block(0)), component(from.block(0));
+    for (unsigned d = 0; d < 3; ++d) to.block(d) = 0.0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      residual = 0.0;
+      for (unsigned d = 0; d < 3; ++d) residual.add(slip->frame(d, axis), from.block(d));
+      (axis == 2 ? slip->normal_component : multigrid).vmult(component, residual);
+      for (unsigned d = 0; d < 3; ++d) to.block(d).add(slip->frame(d, axis), component);
+    }
+  } else {
+    for (unsigned d = 0; d < 3; ++d) multigrid.vmult(to.block(d), from.block(d));
+  }
   if (rotations.empty()) return;
   Vector moments = Vector::Zero(static_cast<Eigen::Index>(rotations.size()));
   for (std::size_t i = 0; i < rotations.size(); ++i) {
@@ -336,6 +398,7 @@ dealii::Vector<double> StokesSystem::pressure(const Blocks& solution) const {
 }
 
 const Viscosities& StokesSystem::viscosities() const { return implementation_->viscosity; }
+WallFlow StokesSystem::wall() const { return implementation_->wall; }
 const std::shared_ptr<const Space>& StokesSystem::shared_space() const { return implementation_->space; }
 const std::shared_ptr<const dealii::DoFHandler<3>>& StokesSystem::pressure_dofs() const {
   return implementation_->pressure_dofs;

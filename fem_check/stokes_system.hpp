@@ -22,8 +22,9 @@ struct Viscosities {
 /// by μ_e R. No matrix: the cells are integrated in every product.
 class StokesSystem {
  public:
+  /// @param wall  of the mesh, if it has one
   /// @throws std::invalid_argument for a degree below 2 or a viscosity that is not positive
-  StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity,
+  StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity, WallFlow wall,
                int exterior_degree = usual_exterior_degree);
   /// The same, all but the fields outside shared.
   [[nodiscard]] StokesSystem with_exterior(int exterior_degree) const;
@@ -54,6 +55,7 @@ class StokesSystem {
   [[nodiscard]] dealii::Vector<double> pressure(const Blocks& solution) const;
 
   [[nodiscard]] const Viscosities& viscosities() const;
+  [[nodiscard]] WallFlow wall() const;
   [[nodiscard]] const Space& space() const { return *shared_space(); }
   [[nodiscard]] const std::shared_ptr<const Space>& shared_space() const;
   [[nodiscard]] const std::shared_ptr<const dealii::DoFHandler<3>>& pressure_dofs() const;
@@ -80,7 +82,7 @@ struct FlowOperators::Data {
 };
 
 /// That of the operators with the exterior degree of the problem.
-/// @throws std::invalid_argument if the problem has other viscosities
+/// @throws std::invalid_argument if the problem has other viscosities or another wall
 StokesSystem system_for(const FlowOperators& operators, const FlowProblem& problem);
 
 /// Velocity and pressure of another solution on the same mesh, into the first four blocks.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace vehd::fem_check {
 
@@ -37,6 +38,22 @@ std::vector<unsigned> nodes_on(unsigned face, const dealii::FiniteElement<3>& el
   return result;
 }
 
+/// Calls visit(face, nodes of the handler on it) for each face; nodes as nodes_on(face).
+template <typename Visit>
+void for_each_face(const std::vector<OuterFace>& faces, const Space& space, const dealii::DoFHandler<3>& handler,
+                   const Visit& visit) {
+  std::map<unsigned, std::vector<unsigned>> on_face;
+  std::vector<DofIndex> of_cell(handler.get_fe().n_dofs_per_cell());
+  for (const OuterFace& face : faces) {
+    const auto [local, is_new] = on_face.try_emplace(face.face);
+    if (is_new) local->second = nodes_on(face.face, handler.get_fe());
+    space.cell(handler, face.cell)->get_dof_indices(of_cell);
+    std::vector<DofIndex> nodes;
+    for (const unsigned i : local->second) nodes.push_back(of_cell[i]);
+    visit(face, nodes);
+  }
+}
+
 /// Of the nodes of the geometry on a face, without unit.
 Vectors geometry_nodes(const Space& space, const OuterFace& face) {
   std::vector<meshes::Point> units;
@@ -54,29 +71,32 @@ Vectors geometry_nodes(const Space& space, const OuterFace& face) {
 
 }  // namespace
 
+std::vector<DofIndex> nodes_on(const std::vector<OuterFace>& faces, const Space& space,
+                               const dealii::DoFHandler<3>& handler) {
+  std::set<DofIndex> result;
+  for_each_face(faces, space, handler, [&](const OuterFace&, const std::vector<DofIndex>& nodes) {
+    result.insert(nodes.begin(), nodes.end());
+  });
+  return {result.begin(), result.end()};
+}
+
 OuterSphere::OuterSphere(const Space& space, const dealii::DoFHandler<3>& handler) : space_(space), handler_(handler) {
-  const dealii::FiniteElement<3>& element = handler.get_fe();
-  const auto degree = static_cast<int>(element.degree);
+  const auto degree = static_cast<int>(handler.get_fe().degree);
   const dealii::QGauss<2> gauss(static_cast<unsigned>(points_per_direction(degree)));
   const auto n_points = static_cast<Eigen::Index>(gauss.size());
   Eigen::Matrix2Xd rule(2, n_points);
   for (unsigned q = 0; q < gauss.size(); ++q) rule.col(q) << gauss.point(q)[0], gauss.point(q)[1];
   shape_ = face_shape(degree, rule);
   const FaceShape geometry = face_shape(static_cast<int>(space.mapping.get_degree()), rule);
-  std::map<unsigned, std::vector<unsigned>> on_face;
   std::vector<int> number(handler.n_dofs(), -1);
-  std::vector<DofIndex> dofs(element.n_dofs_per_cell());
-  for (const OuterFace& outer : space.outer) {
-    const auto [local, is_new] = on_face.try_emplace(outer.face);
-    if (is_new) local->second = nodes_on(outer.face, element);
-    space.cell(handler, outer.cell)->get_dof_indices(dofs);
+  for_each_face(space.outer, space, handler, [&](const OuterFace& outer, const std::vector<DofIndex>& dofs) {
     Face& face = faces_.emplace_back();
-    for (const unsigned i : local->second) {
-      if (number[dofs[i]] < 0) {
-        number[dofs[i]] = static_cast<int>(dofs_.size());
-        dofs_.push_back(dofs[i]);
+    for (const DofIndex dof : dofs) {
+      if (number[dof] < 0) {
+        number[dof] = static_cast<int>(dofs_.size());
+        dofs_.push_back(dof);
       }
-      face.nodes.push_back(number[dofs[i]]);
+      face.nodes.push_back(number[dof]);
     }
     const Vectors nodes = geometry_nodes(space, outer);
     const Vectors first = nodes * geometry.derivative[0].transpose(),
@@ -94,7 +114,7 @@ OuterSphere::OuterSphere(const Space& space, const dealii::DoFHandler<3>& handle
       face.weight[q] = size * gauss.weight(static_cast<unsigned>(q));
       face.position.col(q) = space.physical(face.position.col(q));
     }
-  }
+  });
   mass_ = assemble([&](const Face& face) {
     return Eigen::MatrixXd(shape_.value.transpose() * face.weight.asDiagonal() * shape_.value);
   });
@@ -131,7 +151,7 @@ Eigen::SparseMatrix<double> OuterSphere::assemble(const Local& local) const {
 }
 
 Eigen::SparseMatrix<double> OuterSphere::rotation(unsigned a, unsigned b) const {
-  return assemble([&](const Face& face) {
+  const Eigen::SparseMatrix<double> all = assemble([&](const Face& face) {
     Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(shape_.value.rows(), shape_.value.cols());
     for (std::size_t k = 0; k < face.dual.size(); ++k) {
       const auto factor =
@@ -140,6 +160,7 @@ Eigen::SparseMatrix<double> OuterSphere::rotation(unsigned a, unsigned b) const 
     }
     return Eigen::MatrixXd(shape_.value.transpose() * face.weight.asDiagonal() * derivative);
   });
+  return 0.5 * (all - Eigen::SparseMatrix<double>(all.transpose()));
 }
 
 Vector OuterSphere::integrate(const std::function<double(const Vector3&)>& f) const {

@@ -5,6 +5,10 @@
 
 namespace vehd::fem_check {
 
+/// Nodes of a handler on some faces, each once.
+std::vector<DofIndex> nodes_on(const std::vector<OuterFace>& faces, const Space& space,
+                               const dealii::DoFHandler<3>& handler);
+
 /// Nodes on the outer sphere of the scalar element of a handler, and integrals over the sphere. Lengths in units of the
 /// space.
 class OuterSphere {
@@ -19,7 +23,8 @@ class OuterSphere {
 
   /// ∫ u w dA
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
-  /// ∫ w (n_b ∂_a u − n_a ∂_b u) dA: derivatives along the sphere.
+  /// ∫ w (n_b ∂_a u − n_a ∂_b u) dA, derivatives along the sphere: antisymmetric. At the rim of a half sphere what this
+  /// leaves out of all pairs of components together is along w × u and the rim, nothing for flows along a wall.
   [[nodiscard]] Eigen::SparseMatrix<double> rotation(unsigned a, unsigned b) const;
   /// ∫ f w dA for every node, f given at places as users know them.
   [[nodiscard]] Vector integrate(const std::function<double(const Vector3&)>& f) const;
