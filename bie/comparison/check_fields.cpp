@@ -369,7 +369,7 @@ CheckProblem check_problem(const FrozenState& frozen) {
   for (std::size_t a = 0; problem.contents.flow && a < n; ++a) {
     problem.forces[a] = total_force(frozen, frozen.fields.vesicles[a], a);
   }
-  if (n == 1) problem.samples = check_samples(frozen.state.vesicles.front().position);
+  if (n == 1) problem.samples = check_samples(frozen.state.vesicles.front().position, frozen.model.wall);
   return problem;
 }
 

@@ -65,6 +65,18 @@ void write_shape(VesicleWriter& file, const Matrix& position) {
   write(file, "/x", position, {"length", "coefficients of the membrane position"});
 }
 
+void write_wall(Hdf5Writer& file, const std::optional<Wall>& wall) {
+  if (!wall) return;
+  file.group("/wall");
+  const auto write_vector = [&](const std::string& name, const Vector3& value, const DatasetLabel& label) {
+    file.numbers("/wall/" + name, {value.data(), 3}, {3}, label);
+  };
+  write_vector("point", wall->point, {"length", "of the plane"});
+  write_vector("normal", wall->normal, {"1", "into the fluid"});
+  file.attribute("/wall", "stress_free", std::int64_t{wall->flow == WallFlow::stress_free});
+  file.attribute("/wall", "electrode", std::int64_t{wall->field == WallField::electrode});
+}
+
 /// What vesicles have beside bending and tension, as the finite elements take it.
 struct FurtherForces {
   double spontaneous_curvature = 0.0;
@@ -228,6 +240,7 @@ void write_check_input(const std::filesystem::path& path, const CheckInput& inpu
   file.attribute("/", "schema_version", check_schema_version);
   file.attribute("/", "source", frozen.source);
   file.attribute("/", "time", frozen.state.time);
+  write_wall(file, frozen.model.wall);
   std::vector<VesicleWriter> writers = writers_of(file, input.at_order.size());
   for (std::size_t a = 0; a < writers.size(); ++a) {
     VesicleWriter& writer = writers[a];
@@ -251,6 +264,7 @@ void write_shape_input(const std::filesystem::path& path, const FrozenShape& sha
   Hdf5Writer file(path, Hdf5Writer::Mode::create);
   file.attribute("/", "schema_version", check_schema_version);
   file.attribute("/", "source", shape.source);
+  write_wall(file, shape.wall);
   std::vector<VesicleWriter> writers = writers_of(file, positions.size());
   for (std::size_t a = 0; a < positions.size(); ++a) write_shape(writers[a], positions[a]);
   file.close();

@@ -11,7 +11,7 @@
 namespace vehd {
 
 /// Version of the layout, which both sides must agree in.
-constexpr std::int64_t check_schema_version = 4;
+constexpr std::int64_t check_schema_version = 5;
 
 /// Problem of V_m in time.
 struct InTime {

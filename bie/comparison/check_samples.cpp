@@ -23,7 +23,7 @@ Index spread(int i, Index n) { return static_cast<Index>((i + 0.5) * static_cast
 
 }  // namespace
 
-CheckSamples check_samples(const Matrix& position) {
+CheckSamples check_samples(const Matrix& position, const std::optional<Wall>& wall) {
   const int order = order_of(position.rows());
   const SphereTransform transform(order, make_grid(order));
   const Surface surface = make_surface(transform, position);
@@ -34,6 +34,7 @@ CheckSamples check_samples(const Matrix& position) {
   std::vector<Vector3> points;
   std::vector<double> distances;
   const auto add = [&](const Vector3& point, double distance) {
+    if (wall && !(wall->height(point) > 0.0)) return;
     points.push_back(point);
     distances.push_back(distance);
   };

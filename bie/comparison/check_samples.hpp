@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "bie/physics/wall.hpp"
 #include "bie/potentials/layer_sums.hpp"
 #include "bie/support/types.hpp"
 
@@ -16,8 +18,9 @@ struct CheckSamples {
   double near = 0.0;  ///< one grid spacing: nearer points count as near
 };
 
-/// Points within one grid spacing of the membrane on either side, and points further inside and outside.
-CheckSamples check_samples(const Matrix& position);
+/// Points within one grid spacing of the membrane on either side, and points further inside and outside; none beyond a
+/// wall.
+CheckSamples check_samples(const Matrix& position, const std::optional<Wall>& wall = {});
 
 /// Values at points, [n_points x components], and the side of each.
 using SampleValues = std::pair<Matrix, std::vector<Side>>;

@@ -63,12 +63,25 @@ void require_outward(const RunSnapshot& snapshot, std::size_t vesicle, const Mat
 
 bool is_scene(const std::filesystem::path& file) { return file.extension() == ".toml"; }
 
-/// Finite elements solve for one instant in unbounded fluid.
-void require_instant(const Scene& scene, const std::filesystem::path& file) {
-  if (scene.wall) {
-    throw InputError(
-        fmt::format("{}: has a wall; vehd check accepts vesicles in unbounded fluid, without [wall]", file.string()));
+/// Finite elements mesh one side of a wall with a single vesicle on it.
+void require_known_wall(const Scene& scene, const std::filesystem::path& file) {
+  if (!scene.wall) return;
+  const auto refuse = [&](const std::string& problem) {
+    throw InputError(fmt::format("{}: {}", file.string(), problem));
+  };
+  if (n_vesicles(scene) > 1) refuse("has two vesicles and a wall; vehd check accepts one of them beside a wall");
+  const Model model = model_of(scene);
+  if (model.mobile && model.wall->flow == WallFlow::none) {
+    refuse("has a wall that does not touch the flow; vehd check accepts \"flow\" no-slip or stress-free in [wall]");
   }
+  if (model.electric && model.wall->field == WallField::none) {
+    refuse("has a wall that does not touch the field; vehd check accepts \"field\" insulating or electrode in [wall]");
+  }
+}
+
+/// Finite elements solve for one instant.
+void require_instant(const Scene& scene, const std::filesystem::path& file) {
+  require_known_wall(scene, file);
   if (!has_averaged_field(scene)) return;
   throw InputError(fmt::format(
       "{}: has an averaged ac field; vehd check accepts fields that are followed in time, without \"average\"",
@@ -264,6 +277,8 @@ FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::opti
     require_start(file, time);
     const Scene scene = read_scene(file);
     require_few_vesicles(n_vesicles(scene), file, "vehd mesh");
+    require_known_wall(scene, file);
+    shape.wall = model_of(scene).wall;
     for (const Scene& one : each_alone(scene)) {
       const Matrix& position = shape.positions.emplace_back(initial_position(one));
       require_outward(scene, file, shape.positions.size() - 1, position);
@@ -273,6 +288,9 @@ FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::opti
   const RunReader run = read_snapshots(file, shape.notes);
   require_few_vesicles(run.n_vesicles(), file, "vehd mesh");
   const RunSnapshot snapshot = run.snapshot(choice_of(run, file, time, shape.notes));
+  const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
+  require_known_wall(scene, file);
+  shape.wall = model_of(scene).wall;
   for (std::size_t a = 0; a < run.n_vesicles(); ++a) {
     shape.positions.push_back(resize_order(snapshot.coefficients("x", 3, a), snapshot.degree(a)));
     require_outward(snapshot, a, shape.positions.back());

@@ -33,6 +33,7 @@ constexpr std::size_t most_checked_vesicles = 2;
 struct FrozenShape {
   std::string source;                ///< as above
   std::vector<Matrix> positions;     ///< of each vesicle, coefficients [n_coefficients x 3]
+  std::optional<Wall> wall{};        ///< beside them
   std::vector<std::string> notes{};  ///< as above
 };
 

@@ -126,6 +126,9 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
     throw InputError(fmt::format("{}: has displacement currents; --from accepts runs without \"displacement_current\"",
                                  file.string()));
   }
+  if (end.model.wall) {
+    throw InputError(fmt::format("{}: has a wall; --from accepts runs without [wall]", file.string()));
+  }
   ReadingNotes notes;
   const RunReader run = read_snapshots(file, notes);
   const GivenTimes times(run, file);

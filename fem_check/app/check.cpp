@@ -197,7 +197,9 @@ std::vector<CheckResult> run_check(const CheckTask& task, const Report& report) 
   std::vector<meshes::FrozenShape> shapes;
   for (const CheckInput& input : inputs) shapes.emplace_back(input.position);
   const Refinement refinement = refinement_for(task, inputs, shapes);
-  Meshes meshes(shapes, refinement);
+  std::optional<meshes::Wall> wall;
+  if (inputs.front().wall) wall = inputs.front().wall->place;
+  Meshes meshes(shapes, refinement, wall);
   const Discretisation& geometry = meshes.discretise(refinement.potential_degrees.back());
   const SolvedState solved = solve_state(inputs, meshes, geometry, refinement, report);
 

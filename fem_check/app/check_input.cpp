@@ -9,7 +9,7 @@
 namespace vehd::fem_check {
 namespace {
 
-constexpr double schema_version = 4;
+constexpr double schema_version = 5;
 
 void require_schema(const Hdf5Input& file) {
   const double version = file.number("/", "schema_version");
@@ -37,6 +37,15 @@ class VesicleGroup {
   const Hdf5Input& file_;
   std::string group_;
 };
+
+std::optional<InputWall> read_wall(const Hdf5Input& file) {
+  if (!file.has("/wall")) return {};
+  InputWall wall;
+  wall.place = {file.matrix("/wall/point"), file.matrix("/wall/normal")};
+  if (file.number("/wall", "stress_free") != 0.0) wall.flow = WallFlow::stress_free;
+  if (file.number("/wall", "electrode") != 0.0) wall.field = WallField::electrode;
+  return wall;
+}
 
 /// Of all vesicles.
 std::vector<VesicleGroup> vesicle_groups(const Hdf5Input& file) {
@@ -239,6 +248,7 @@ std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path) {
     CheckInput& input = inputs.emplace_back(read_vesicle(group));
     input.source = file.text("/", "source");
     input.time = file.number("/", "time");
+    input.wall = read_wall(file);
     const bool is_curved = input.flow() && input.physics.spontaneous_curvature != 0.0;
     if (is_curved && !(input.bie.force_curvature.size() > 0 && input.bie_high.force_curvature.size() > 0)) {
       file.refuse("has a spontaneous curvature and no force_curvature in /bie or /bie_high");
@@ -256,12 +266,13 @@ std::string source_of(const std::filesystem::path& path) {
   return file.has_attribute("/", "source") ? file.text("/", "source") : path.string();
 }
 
-std::vector<Eigen::MatrixXd> read_positions(const std::filesystem::path& path) {
+InputShapes read_shapes(const std::filesystem::path& path) {
   const Hdf5Input file(path);
   require_schema(file);
-  std::vector<Eigen::MatrixXd> positions;
-  for (const VesicleGroup& group : vesicle_groups(file)) positions.push_back(group.matrix("/x"));
-  return positions;
+  InputShapes shapes;
+  for (const VesicleGroup& group : vesicle_groups(file)) shapes.positions.push_back(group.matrix("/x"));
+  if (const std::optional<InputWall> wall = read_wall(file)) shapes.wall = wall->place;
+  return shapes;
 }
 
 }  // namespace vehd::fem_check

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "fem_check/types.hpp"
+#include "fem_check/flow.hpp"
+#include "fem_check/potential.hpp"
+#include "meshes/wall.hpp"
 
 /// What the boundary-integral side hands over, docs/check.md. Fields on γ are spherical-harmonic coefficients,
 /// [n_coefficients x components]; an empty one is absent.
@@ -78,6 +80,13 @@ struct InTime {
   [[nodiscard]] bool moves() const { return positions.size() > 1; }
 };
 
+/// A wall beside the vesicle, and what holds there.
+struct InputWall {
+  meshes::Wall place;
+  WallFlow flow = WallFlow::no_slip;
+  WallField field = WallField::insulating;
+};
+
 /// All that the file holds of one vesicle.
 struct CheckInput {
   std::string source;
@@ -85,6 +94,7 @@ struct CheckInput {
   double time = 0.0;
   Eigen::MatrixXd position;
   Physics physics;
+  std::optional<InputWall> wall;
   Eigen::MatrixXd potential;                        ///< V_m of the snapshot
   Eigen::MatrixXd conductance, pump_current;        ///< G_m where it varies, and J_p, outwards
   Eigen::MatrixXd free_charge_in, free_charge_out;  ///< q_i and q_e of its faces; with displacement currents alone
@@ -110,7 +120,13 @@ std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path);
 /// The scene or run that a file was made from; its own name where it does not say. @throws InputError
 std::string source_of(const std::filesystem::path& path);
 
-/// Coefficients of x alone, of each vesicle. @throws InputError
-std::vector<Eigen::MatrixXd> read_positions(const std::filesystem::path& path);
+/// What is meshed.
+struct InputShapes {
+  std::vector<Eigen::MatrixXd> positions;  ///< coefficients of x, of each vesicle
+  std::optional<meshes::Wall> wall;
+};
+
+/// Of any file of the boundary-integral side. @throws InputError
+InputShapes read_shapes(const std::filesystem::path& path);
 
 }  // namespace vehd::fem_check

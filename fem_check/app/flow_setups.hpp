@@ -22,6 +22,7 @@ class FlowSetups {
  private:
   PerVesicle<double> viscosity_in_;
   double viscosity_out_;
+  WallFlow wall_ = WallFlow::no_slip;
   std::map<int, FlowOperators> operators_;
 };
 

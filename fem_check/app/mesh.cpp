@@ -39,15 +39,29 @@ MeshResult written(const MeshTask& task, const std::vector<meshes::FrozenShape>&
   return result;
 }
 
-MeshResult mesh_of_two(const MeshTask& task, const std::vector<meshes::FrozenShape>& shapes, double factor) {
-  if (task.family == "tet") throw InputError("--family tet: knows one vesicle; accepted for two: hex");
-  const std::array pair{shapes[0], shapes[1]};
-  meshes::BoxMeshOptions options = two_vesicle_options({}, pair);
+/// Layers of a mesh for other programs, whose geometry is quadratic.
+void refine(meshes::BoxMeshOptions& options, double factor) {
   const meshes::BlockMeshOptions of_one;
   options.cells_per_edge = refined(of_one.cells_per_edge, factor);
   options.blend_layers = refined(of_one.blend_layers, factor);
   options.box_layers = refined(options.box_layers, factor);
   options.outer_layers = refined(options.outer_layers, factor);
+}
+
+MeshResult mesh_beside_wall(const MeshTask& task, const meshes::FrozenShape& shape, const meshes::Wall& wall,
+                            double factor) {
+  if (task.family == "tet") throw InputError("--family tet: knows no wall; accepted beside one: hex");
+  meshes::BoxMeshOptions options = wall_mesh_options({}, shape, wall);
+  refine(options, factor);
+  const meshes::BoxMesh exact = meshes::make_mesh_beside_wall(shape, wall, options);
+  return written(task, {shape}, meshes::SecondOrderMesh(exact), options.smallest_scaled_jacobian);
+}
+
+MeshResult mesh_of_two(const MeshTask& task, const std::vector<meshes::FrozenShape>& shapes, double factor) {
+  if (task.family == "tet") throw InputError("--family tet: knows one vesicle; accepted for two: hex");
+  const std::array pair{shapes[0], shapes[1]};
+  meshes::BoxMeshOptions options = two_vesicle_options({}, pair);
+  refine(options, factor);
   const meshes::BoxMesh exact = meshes::make_two_vesicle_mesh(pair, options);
   return written(task, shapes, meshes::SecondOrderMesh(exact), options.smallest_scaled_jacobian);
 }
@@ -55,12 +69,14 @@ MeshResult mesh_of_two(const MeshTask& task, const std::vector<meshes::FrozenSha
 }  // namespace
 
 MeshResult run_mesh(const MeshTask& task) {
+  const InputShapes input = read_shapes(task.input);
   std::vector<meshes::FrozenShape> shapes;
-  for (const Eigen::MatrixXd& position : read_positions(task.input)) shapes.emplace_back(position);
+  for (const Eigen::MatrixXd& position : input.positions) shapes.emplace_back(position);
   const double factor = std::pow(refinement_step, task.refine);
   if (shapes.size() > 2) throw InputError(fmt::format("{}: has {} vesicles", task.input.string(), shapes.size()));
   if (shapes.size() == 2) return mesh_of_two(task, shapes, factor);
   const meshes::FrozenShape& shape = shapes.front();
+  if (input.wall) return mesh_beside_wall(task, shape, *input.wall, factor);
   if (task.family == "tet") {
     meshes::TetMeshOptions options;
     options.surface_size /= factor;

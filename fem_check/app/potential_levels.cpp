@@ -16,6 +16,7 @@ PotentialProblem base_problem(const std::vector<CheckInput>& inputs) {
   problem.conductivity_out = physics.conductivity_out;
   problem.permittivity_in = number_of(inputs, &Physics::permittivity_in);
   problem.permittivity_out = physics.permittivity_out;
+  if (inputs.front().wall) problem.wall = inputs.front().wall->field;
   return problem;
 }
 

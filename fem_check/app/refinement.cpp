@@ -76,8 +76,9 @@ meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, const 
   return options;
 }
 
-meshes::BoxMeshOptions two_vesicle_options(const Refinement& refinement,
-                                           const std::array<meshes::FrozenShape, 2>& shapes) {
+namespace {
+
+meshes::BoxMeshOptions box_mesh_options(const Refinement& refinement) {
   meshes::BoxMeshOptions options;
   options.cells_per_edge = refinement.cells_per_edge;
   options.blend_layers = refinement.blend_layers;
@@ -85,6 +86,14 @@ meshes::BoxMeshOptions two_vesicle_options(const Refinement& refinement,
   options.box_growth = refinement.box_growth;
   options.outer_layers = refinement.outer_layers;
   options.outer_growth = refinement.outer_growth;
+  return options;
+}
+
+}  // namespace
+
+meshes::BoxMeshOptions two_vesicle_options(const Refinement& refinement,
+                                           const std::array<meshes::FrozenShape, 2>& shapes) {
+  meshes::BoxMeshOptions options = box_mesh_options(refinement);
   const meshes::Point middle = 0.5 * (shapes[0].centroid() + shapes[1].centroid());
   const double reach = std::max(shapes[0].largest_distance(middle), shapes[1].largest_distance(middle));
   // Two that are far from one another fill the sphere more than a single one does.
@@ -93,7 +102,23 @@ meshes::BoxMeshOptions two_vesicle_options(const Refinement& refinement,
   return options;
 }
 
-Meshes::Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement)
+meshes::BoxMeshOptions wall_mesh_options(const Refinement& refinement, const meshes::FrozenShape& shape,
+                                         const meshes::Wall& wall) {
+  constexpr double layer_factor = 2.5;  // of the thickness of all layers that brings one more
+  constexpr double room = 1.2;          // of the outer sphere about the box
+  meshes::BoxMeshOptions options = box_mesh_options(refinement);
+  options.outer_layers = 1;
+  const double reach = shape.largest_distance(shape.centroid()), gap = meshes::gap_to(wall, shape);
+  const double least_margin = options.boxes.margin * shape.radius(), margin = std::max(least_margin, gap);
+  options.box_layers += static_cast<int>(std::lround(std::log(margin / least_margin) / std::log(layer_factor)));
+  const double height = wall.normal.dot(shape.centroid() - wall.point), half_width = reach + margin;
+  options.boxes.outer_radius = std::max(height + reach + refinement.outer_distance * shape.radius(),
+                                        room * std::hypot(half_width, half_width, height + half_width));
+  return options;
+}
+
+Meshes::Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement,
+               const std::optional<meshes::Wall>& wall)
     : points_per_edge_(refinement.points_per_edge) {
   if (shapes.size() == 2) {
     const std::array pair{shapes[0], shapes[1]};
@@ -103,6 +128,11 @@ Meshes::Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement&
   }
   if (shapes.size() != 1) throw meshes::MeshError(fmt::format("has {} vesicles; accepted: one or two", shapes.size()));
   const meshes::FrozenShape& shape = shapes.front();
+  if (wall) {
+    mesh_ = std::make_shared<meshes::BoxMesh>(
+        meshes::make_mesh_beside_wall(shape, *wall, wall_mesh_options(refinement, shape, *wall)));
+    return;
+  }
   mesh_ = std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, block_mesh_options(refinement, shape)));
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fem_check/discretisation.hpp"
@@ -25,7 +26,7 @@ struct Refinement {
   /// all points off the membrane.
   double outer_distance = 3.2;
   double outer_radius_of_two = 8.0;  ///< over the radius of two together
-  // Of two vesicles: between a membrane and its box, and from the boxes to the outer sphere.
+  // Of two vesicles, or one beside a wall: between a membrane and its box, and from the boxes to the outer sphere.
   int box_layers = 2, outer_layers = 2;
   double box_growth = 2.0, outer_growth = 2.0;
   /// Gauss points on each face of γ, of the comparison and of the integrals of what is given there; see resolve().
@@ -67,11 +68,16 @@ meshes::BlockMeshOptions block_mesh_options(const Refinement& refinement, const 
 meshes::BoxMeshOptions two_vesicle_options(const Refinement& refinement,
                                            const std::array<meshes::FrozenShape, 2>& shapes);
 
-/// The mesh of one or two shapes.
+/// About a shape beside a wall.
+meshes::BoxMeshOptions wall_mesh_options(const Refinement& refinement, const meshes::FrozenShape& shape,
+                                         const meshes::Wall& wall);
+
+/// The mesh of one or two shapes, or of one beside a wall.
 class Meshes {
  public:
   /// @throws MeshError if there are more shapes, or if the blocks cannot follow them
-  Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement);
+  Meshes(const std::vector<meshes::FrozenShape>& shapes, const Refinement& refinement,
+         const std::optional<meshes::Wall>& wall = {});
 
   /// Made once for each degree.
   [[nodiscard]] const Discretisation& discretise(int degree);
