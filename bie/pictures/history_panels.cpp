@@ -62,7 +62,7 @@ const std::vector<QuantityRow>& quantity_rows() {
        {{"poration_load", "share of the threshold of poration"}, {"porosity_max", "largest porosity"}},
        Shown::with_poration},
       {shown_quantity::pores,
-       {{"pore_density_max", "largest density of pores"}, {"pore_density_mean", "its mean"}},
+       {{"pore_density_max", "largest"}, {"pore_density_mean", "mean"}},
        Shown::with_poration,
        true},
       {shown_quantity::inclination, {{"inclination_deg", "inclination (degrees)"}}, Shown::with_flow},
@@ -152,6 +152,24 @@ std::optional<HistoryCurve> ratio_of_extents(const HistoryTable& history) {
   return curve;
 }
 
+/// Turning points after which a curve goes back by a hundredth of its range: less is rounding.
+std::size_t turns_of(const std::vector<double>& values) {
+  const auto [least, most] = std::ranges::minmax(values);
+  const double back = 0.01 * (most - least);
+  std::size_t n_turns = 0;
+  double extreme = values.front();
+  bool rises = true;
+  for (const double value : values) {
+    if (rises ? value > extreme : value < extreme) extreme = value;
+    if (std::abs(value - extreme) > back) {
+      ++n_turns;
+      rises = !rises;
+      extreme = value;
+    }
+  }
+  return n_turns;
+}
+
 /// The ratio along the field tells prolates from oblates; without a field it is 0, and the ratio of the axes is left.
 void choose_aspect_ratio(std::vector<HistoryCurve>& curves) {
   if (curves.size() < 2) return;
@@ -234,10 +252,7 @@ HistoryCurve band_of_oscillation(HistoryCurve curve) {
   constexpr std::size_t most_turns = 60, places = 400;
   const std::vector<double> values = curve.values;
   const std::size_t n = values.size();
-  std::size_t n_turns = 0;
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    if ((values[i] - values[i - 1]) * (values[i + 1] - values[i]) < 0.0) ++n_turns;
-  }
+  const std::size_t n_turns = turns_of(values);
   if (n_turns <= most_turns || !curve.errors.empty()) return curve;
   // A period has two turns.
   const std::size_t period = 2 * n / n_turns + 1, stride = std::max<std::size_t>(1, n / places);

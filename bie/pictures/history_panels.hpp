@@ -45,7 +45,7 @@ std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& hist
                                     const HistoryTable* errors = nullptr);
 
 /// The band in which a curve oscillates, as its middle and half its width in `errors`: a curve with more than 60
-/// turning points would fill its panel. Any other curve is returned unchanged.
+/// turning points, rounding apart, would fill its panel. Any other curve is returned unchanged.
 HistoryCurve band_of_oscillation(HistoryCurve curve);
 
 /// Do all curves end their changes, but for a tenth, within the first twentieth of the time? Then a logarithmic axis of

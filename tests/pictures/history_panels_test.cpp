@@ -113,6 +113,9 @@ BOOST_AUTO_TEST_CASE(an_oscillation_has_the_band_of_its_extremes) {
   }
   wave.values.resize(100);
   BOOST_TEST(band_of_oscillation(wave).errors.empty());
+  HistoryCurve settled{"settled", {}};
+  for (int i = 0; i < 4000; ++i) settled.values.push_back(std::exp(-i / 10.0) + 1e-12 * std::sin(i));
+  BOOST_TEST(band_of_oscillation(settled).errors.empty());
 }
 
 BOOST_AUTO_TEST_CASE(time_is_logarithmic_where_all_changes_are_at_the_start) {
