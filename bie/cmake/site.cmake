@@ -29,8 +29,22 @@ foreach(part IN ITEMS MathJax.js config/TeX-AMS_SVG.js extensions jax/element ja
 endforeach()
 file(COPY "${mathjax}/jax/output/SVG/fonts/TeX" DESTINATION "${pages}/docs/site/mathjax/jax/output/SVG/fonts")
 
+# Executed notebooks with their figures, where the module of Python is built and has what they need.
+get_filename_component(build "${site}" DIRECTORY)
+execute_process(COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${build}/python" OMP_NUM_THREADS=1
+                        ${python} "${source}/docs/notebooks/editions.py" --html "${pages}/notebooks_html"
+                RESULT_VARIABLE not_executed)
+if(NOT not_executed EQUAL 0 AND NOT not_executed EQUAL 77)
+  message(FATAL_ERROR "a notebook fails")
+endif()
+
 execute_process(COMMAND "${sphinx}" -q -W --keep-going -b html -c "${pages}/docs/site" "${pages}" "${site}"
                 WORKING_DIRECTORY "${source}" COMMAND_ERROR_IS_FATAL ANY)
+
+if(not_executed EQUAL 0)
+  file(GLOB notebooks "${pages}/notebooks_html/*.html")
+  file(COPY ${notebooks} DESTINATION "${site}/docs/notebooks")
+endif()
 
 file(READ "${source}/docs/site/Doxyfile" settings)
 string(APPEND settings "INPUT = \"${source}/bie\"\nSTRIP_FROM_PATH = \"${source}\"\nOUTPUT_DIRECTORY = \"${site}\"\n")

@@ -1,6 +1,7 @@
 """Writes a student's and a teacher's edition of every notebook: python3 docs/notebooks/editions.py [-o FOLDER]
 
-The student's edition ends before the answers. Links to pages lead to the pages beside the notebooks.
+The student's edition ends before the answers. Links to pages lead to the pages beside the notebooks. With --html FOLDER the notebooks
+are executed instead, and FOLDER has them as HTML with their figures, for the site; the exit code is 77 if a module for that is missing.
 """
 
 import argparse
@@ -8,6 +9,8 @@ import json
 import os
 import pathlib
 import re
+import sys
+import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 ANSWERS = "\n## Answers\n"
@@ -31,10 +34,42 @@ def with_links(cells: list, folder: pathlib.Path) -> list:
             if cell["cell_type"] == "markdown" else cell for cell in cells]
 
 
-def main() -> None:
+def write_html(output: pathlib.Path) -> int:
+    """Executes every notebook that this machine can execute. Formulas take the MathJax of the site, without network."""
+    try:
+        import matplotlib  # noqa: F401
+        import nbformat
+        import scipy  # noqa: F401
+        import vehd
+        from nbconvert import HTMLExporter
+        from nbconvert.preprocessors import ExecutePreprocessor
+    except ImportError as missing:
+        print(f"notebooks are not executed: {missing}")
+        return 77
+    exporter = HTMLExporter(mathjax_url="../../_static/MathJax.js?config=TeX-AMS_SVG", require_js_url="")
+    output.mkdir(parents=True, exist_ok=True)
+    os.environ.setdefault("PYDEVD_DISABLE_FILE_VALIDATION", "1")
+    for file in sorted(HERE.glob("*.ipynb")):
+        book = nbformat.read(file, as_version=4)
+        # Pages of the site are beside the notebooks.
+        for cell in book.cells:
+            if cell.cell_type == "markdown":
+                cell.source = re.sub(r"\]\(([^):]+)\.(?:md|ipynb)(#[^)]*)?\)", r"](\1.html\2)", cell.source)
+        if vehd.has_finite_elements() or "has_finite_elements" not in file.read_text():
+            with tempfile.TemporaryDirectory() as folder:
+                ExecutePreprocessor(timeout=300).preprocess(book, {"metadata": {"path": folder}})
+        (output / f"{file.stem}.html").write_text(exporter.from_notebook_node(book)[0])
+    return 0
+
+
+def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("out/notebooks"))
-    output = parser.parse_args().output.resolve()
+    parser.add_argument("--html", type=pathlib.Path)
+    options = parser.parse_args()
+    if options.html:
+        return write_html(options.html.resolve())
+    output = options.output.resolve()
     for file in sorted(HERE.glob("*.ipynb")):
         book = json.loads(file.read_text())
         for edition, cells in (("student", without_answers(book["cells"])), ("teacher", book["cells"])):
@@ -43,7 +78,8 @@ def main() -> None:
             text = json.dumps({**book, "cells": with_links(cells, folder)}, indent=1, ensure_ascii=False)
             (folder / file.name).write_text(text + "\n")
             print(folder / file.name)
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -1,5 +1,6 @@
 """Sphinx configuration of the site; bie/cmake/site.cmake runs it on a copy of the pages, laid out as the project is."""
 
+import pathlib
 import re
 
 project = "vehd"
@@ -7,6 +8,7 @@ html_title = "vehd"
 extensions = ["myst_parser", "sphinx.ext.mathjax"]
 root_doc = "docs/index"
 exclude_patterns = ["docs/site"]
+notebooks = pathlib.Path(__file__).resolve().parents[2] / "notebooks_html"
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 
@@ -30,5 +32,12 @@ def complete_index(app, docname, source):
         source[0] += "\n```{toctree}\n:hidden:\n:caption: More\n\n" + entries + "\n```\n"
 
 
+def link_notebooks(app, docname, source):
+    """Links to notebooks lead to their executed form, where there is one."""
+    if notebooks.is_dir():
+        source[0] = re.sub(r"\[([^\]]*)\]\(((?:\.\./)*(?:docs/)?notebooks/\w+)\.ipynb\)", r'<a href="\2.html">\1</a>', source[0])
+
+
 def setup(app):
     app.connect("source-read", complete_index)
+    app.connect("source-read", link_notebooks)
