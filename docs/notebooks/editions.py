@@ -1,7 +1,8 @@
 """Writes a student's and a teacher's edition of every notebook: python3 docs/notebooks/editions.py [-o FOLDER]
 
-The student's edition ends before the answers. Links to pages lead to the pages beside the notebooks. With --html FOLDER the notebooks
-are executed instead, and FOLDER has them as HTML with their figures, for the site; the exit code is 77 if a module for that is missing.
+The student's edition ends before the answers. Links to pages lead to the pages beside the notebooks. With --html FOLDER
+the notebooks are executed instead, and FOLDER has them as HTML with their figures, for the site; the exit code is 77 if
+a module for that is missing.
 """
 
 import argparse

@@ -35,7 +35,8 @@ def complete_index(app, docname, source):
 def link_notebooks(app, docname, source):
     """Links to notebooks lead to their executed form, where there is one."""
     if notebooks.is_dir():
-        source[0] = re.sub(r"\[([^\]]*)\]\(((?:\.\./)*(?:docs/)?notebooks/\w+)\.ipynb\)", r'<a href="\2.html">\1</a>', source[0])
+        link = r"\[([^\]]*)\]\(((?:\.\./)*(?:docs/)?notebooks/\w+)\.ipynb\)"
+        source[0] = re.sub(link, r'<a href="\2.html">\1</a>', source[0])
 
 
 def setup(app):

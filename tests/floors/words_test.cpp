@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> sources_and_pages() {
   std::vector<fs::path> files = pages();
-  for (const char* folder : {"bie", "fem_check", "meshes"}) {
-    const std::vector<fs::path> more = files_below(folder, {".cpp", ".hpp", ".py", ".cmake"});
+  for (const char* folder : {"bie", "fem_check", "meshes", "docs"}) {
+    const std::vector<fs::path> more = files_below(folder, {".cpp", ".hpp", ".py", ".cmake", ".ipynb"});
     files.insert(files.end(), more.begin(), more.end());
   }
   return files;
