@@ -18,8 +18,8 @@ struct MirroredTarget {
 
 /// Of a point force f, prefactor that of the Stokes single layer:
 ///   −(1/s + 2zh/s³) f + [(6zh/s⁵ − 1/s³) s·f − 2z n·f/s³] s + [2 n·f/s − 2h s·f/s³] n.
-/// Accuracy: rounding; Blake's tensor and zero velocity on the plane to 1e-12 (tests/kernels/no_slip_test.cpp)
-/// Source: Blake 1971; Gimbutas, Greengard and Veerapaneni 2015
+/// Accuracy: rounding; Blake's tensor and zero velocity on the plane to 1e-12 (tests/potentials/no_slip_test.cpp)
+/// Source: Blake 1971
 template <class Real>
 std::array<Real, 3> no_slip_flow(const MirroredTarget& target, const Real& sx, const Real& sy, const Real& sz,
                                  const Real& inverse, const Real& fx, const Real& fy, const Real& fz) {
@@ -39,8 +39,8 @@ std::array<Real, 3> no_slip_flow(const MirroredTarget& target, const Real& sx, c
 /// a at the source and Q = (v aᵀ + a vᵀ)/2 it is
 ///   −4zh Qs/s⁵ + [(10zh/s² − 1) s·Qs + 2z² tr Q] s/s⁵ − 2h s·Qs n/s⁵,
 /// which like the free kernel is zero outside a closed surface for a constant v.
-/// Accuracy: rounding (tests/kernels/no_slip_test.cpp)
-/// Source: no_slip_flow differentiated at the source, and the image of a point source: Blake and Chwang 1974
+/// Accuracy: rounding (tests/potentials/no_slip_test.cpp)
+/// Source: no_slip_flow differentiated at the source, with the image of a source of fluid
 template <class Real>
 std::array<Real, 3> no_slip_double_flow(const MirroredTarget& target, const Real& sx, const Real& sy, const Real& sz,
                                         const Real& inverse, const Real& ax, const Real& ay, const Real& az,

@@ -144,7 +144,8 @@ void draw_flow(Page& page, const Plane& centre, const FlowScene& flow, const Mat
   const bool shear = flow.kind == FlowKind::shear, poiseuille = flow.kind == FlowKind::poiseuille;
   if ((shear || poiseuille) && seen(Vector3::UnitX())) {
     if (seen(Vector3::UnitZ())) return draw_profile(page, centre, flow, view, Vector3::UnitZ());
-    if (poiseuille && flow.section == FlowSection::tube) return draw_profile(page, centre, flow, view, Vector3::UnitY());
+    if (poiseuille && flow.section == FlowSection::tube)
+      return draw_profile(page, centre, flow, view, Vector3::UnitY());
   }
   if (draw_ring(page, centre, flow, view)) return;
   // Nothing moves within the plane: as on the side of the eye.
