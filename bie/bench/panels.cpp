@@ -66,6 +66,8 @@ std::vector<BenchPanel> time_panels(const BenchRecord& record) {
     if (has_points(in_seconds)) seconds.curves.push_back(std::move(in_seconds));
     if (!has_points(in_steps)) continue;
     const int order = order_of_integrator(integrator);
+    // Few steps lie between two powers of ten.
+    if (order > 0 && steps.x_ticks.empty()) steps.x_ticks = in_steps.x;
     if (order > 0 && (apart || order <= 2)) {
       steps.slopes.push_back(slope_beside(in_steps, -order, fmt::format("N^{{\u2212{}}}", order), 0.45));
     }

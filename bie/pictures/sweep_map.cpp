@@ -185,6 +185,11 @@ void draw_sweep_map(const SweepRows& rows, std::size_t column, std::optional<dou
     for (const PagePoint& at : curve) {
       line.points.push_back({box.left + at[0] * box.width(), box.bottom + at[1] * box.height()});
     }
+    // A white edge tells it from red cells.
+    PageLine edge = line;
+    edge.width = 3.2;
+    edge.colour = "#ffffff";
+    page.lines.push_back(std::move(edge));
     page.lines.push_back(std::move(line));
   }
   draw_sweep_frame(page, box, axis_of_cells(rows.keys[0].name, values_of_key(rows, 0)),

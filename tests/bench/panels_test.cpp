@@ -35,6 +35,7 @@ BOOST_FIXTURE_TEST_CASE(what_an_order_can_do_is_shown_apart_from_the_degree, Tab
   // The tolerance has no steps of one size, so no error of theirs.
   BOOST_REQUIRE(drawn[1].curves.size() == 2);
   BOOST_TEST(drawn[1].curves[1].y[1] == 6e-8);
+  BOOST_TEST(drawn[1].x_ticks == (std::vector<double>{40.0, 80.0}), boost::test_tools::per_element());
   BOOST_REQUIRE(drawn[1].slopes.size() == 2);
   BOOST_TEST(drawn[1].slopes[0].exponent == -1.0);
   BOOST_TEST(drawn[1].slopes[1].exponent == -4.0);
