@@ -67,7 +67,7 @@ ExitCode parse_and_run(CLI::App& program, int argc, char** argv, ExitCode& exit_
     return fail(ExitCode::stopped_early, error.what());
   } catch (const ConvergenceError& error) {
     // No defect of the program: what it was given asks for more than its resolution can do.
-    return fail(ExitCode::wrong_input, fmt::format("vehd {}: what the input asks for cannot be computed: {}",
+    return fail(ExitCode::wrong_input, fmt::format("vehd {}: the input cannot be computed: {}",
                                                    program.get_subcommands().front()->get_name(), error.what()));
   } catch (const std::exception& error) {
     return fail(ExitCode::internal_error, fmt::format("internal error: {}", error.what()));

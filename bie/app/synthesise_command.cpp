@@ -98,8 +98,8 @@ void add_synthesise_command(CLI::App& program, ExitCode& exit_code) {
   command->add_flag("--quiet", options->quiet, "Show no progress");
   add_common_options(*command, options->common);
   command->footer(
-      "The scene runs with a tolerance of a hundredth of the noise. The rows have times and units as its history.csv,\n"
-      "and a column of standard deviations: what vehd fit reads. See docs/fit.md.");
+      "The scene runs with a tolerance of a hundredth of the noise. The rows have the times and units of its\n"
+      "history.csv, and a column of standard deviations, as vehd fit reads them. See docs/fit.md.");
   command->callback([options, &exit_code] { exit_code = synthesise(*options); });
 }
 

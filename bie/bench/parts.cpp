@@ -78,7 +78,7 @@ BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats
                   {"time_order", scene.numerics.time_order},
                   {"peak_operations_per_second", peak},
                   {"peak_is_of", "products of matrices of 256 rows in double precision"},
-                  {"bytes_are", "most memory beyond what was held when the part began"}};
+                  {"bytes_are", "peak memory beyond that at the start of the part"}};
   observer.note(fmt::format("{} threads, {:.1f} Gflop/s in matrix products, dt = {}; seconds", machine.threads,
                             peak / 1e9, *scene.numerics.dt));
   BenchTasks tasks(static_cast<int>(orders.size()) * (repeats + 2), observer);

@@ -171,7 +171,7 @@ void write_fields(VesicleWriter& file, const std::string& group, const CheckFiel
   field("Vm_rate", fields.potential_rate,
         {"potential/time", "dV_m/dt of the given V_m, where C_m varies times it over the C_m of /physics"});
   field("Vm_rate_truncation", fields.rate_truncation,
-        {"potential/time", "share in Vm_rate of what G_m of pores loses when it is truncated to this degree"});
+        {"potential/time", "change of Vm_rate when G_m of pores is truncated to this degree"});
   field("Vm_of_charges", fields.potential_of_charges, {"potential", "V_m of the given free charges"});
   field("free_charge_rate", fields.free_charge_rate, {"potential/time", "rate of q_i + q_e over C_m"});
   field("force_bending", fields.force_bending, {"force/area", "f_b of the shape, in the degree force_order"});
@@ -181,7 +181,7 @@ void write_fields(VesicleWriter& file, const std::string& group, const CheckFiel
   field("tension", fields.tension, {"force/length", "lambda of the shape and the given V_m"});
   field("velocity_of_shape", fields.velocity_of_shape, {"velocity", "v of the shape and the given V_m"});
   field("velocity_truncation", fields.velocity_truncation,
-        {"velocity", "v of what its forces lose when they are truncated to this degree"});
+        {"velocity", "change of v when its forces are truncated to this degree"});
   file.attribute(group, "tension_is_free", std::int64_t{fields.tension_is_free});
   file.attribute(group, "dilation", fields.dilation);
   field("Vm_steady", fields.steady_potential, {"potential", "steady V_m of the membrane law"});

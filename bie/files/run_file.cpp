@@ -158,7 +158,7 @@ void write_run_header(Hdf5Writer& file, const SphereTransform& transform, const 
   file.attribute(
       "/", "units",
       std::string("numbers are those of the scene; times the scale of a dataset they are in its unit, which is 1 where "
-                  "the scene does not say what its numbers are in SI units"));
+                  "the scene gives no SI unit"));
   for (const auto& [library, version] : library_versions()) file.attribute("/", "version_" + library, version);
   file.text("/scene", header.scene);
 

@@ -21,7 +21,7 @@ constexpr std::array limit_meanings = {
     LimitMeaning{"volume_drift", "change of the volume since the start, relative; no fluid passes the membrane"},
     LimitMeaning{"strain_max", "largest local stretching of the membrane, which keeps the area of every piece"},
     LimitMeaning{"spectrum_tail",
-                 "share of the highest third of the degrees in the shape: what the degree cannot show"},
+                 "share of the highest third of the degrees in the shape, which estimates the part beyond the degree"},
     LimitMeaning{"quadrature_error", "error of the integrals where parts of the membrane are close, relative"},
     LimitMeaning{"truncation", "share of the shape that the highest allowed degree leaves out; limit: the tolerance"},
     LimitMeaning{"separation",
