@@ -220,6 +220,20 @@ class Pictures(unittest.TestCase):
         frame = run.history.to_pandas()
         self.assertIsInstance(frame, pandas.DataFrame)
         self.assertEqual(list(frame), list(run.history))
+        self.assertEqual(frame.attrs["units"], run.history.units)
+
+    def test_tables_of_one_unit_are_put_together(self):
+        def table(unit, time):
+            result = vehd.Table({"time": np.array(time), "volume": np.ones(len(time))})
+            result.units = {"time": unit, "volume": ""}
+            return result
+
+        together = vehd.concat([table("ms", [0.0, 1.0]), table("ms", [2.0])])
+        self.assertEqual(list(together["time"]), [0.0, 1.0, 2.0])
+        self.assertEqual(list(together["run"]), [0, 0, 1])
+        self.assertEqual(together.units["time"], "ms")
+        with self.assertRaisesRegex(vehd.InputError, "column 'time' has the units 'ms', 's'; accepted: one"):
+            vehd.concat([table("ms", [0.0]), table("s", [1.0])])
 
 
 if __name__ == "__main__":

@@ -44,14 +44,14 @@ from .scenes import Scene  # noqa: E402
 from .simulation import Simulation  # noqa: E402
 from .solves import point_source_fields, solve_electric, solve_jumps, solve_tension  # noqa: E402
 from .surface import Operator, Surface  # noqa: E402
-from .tables import Table, read_history  # noqa: E402
+from .tables import Table, concat, read_history  # noqa: E402
 from . import plot  # noqa: E402
 
 __version__ = _version()
 
 __all__ = [
     "CheckResult", "ConvergenceError", "InputError", "Operator", "OutputError", "Scene", "SceneError",
-    "ShapeError", "Simulation", "Surface", "Table", "check", "coefficient_index", "degree_of",
+    "ShapeError", "Simulation", "Surface", "Table", "check", "coefficient_index", "concat", "degree_of",
     "evaluate_harmonics", "example1", "example1_sources", "fit", "has_finite_elements", "library_versions",
     "n_coefficients", "plot", "point_source_fields", "read_history", "resize_degree", "set_threads",
     "solve_by_elements", "solve_electric", "solve_jumps", "solve_tension", "threads",

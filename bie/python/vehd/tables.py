@@ -3,7 +3,7 @@
 import difflib
 import os
 from pathlib import Path
-from typing import Any, Union
+from typing import Any, Iterable, Union
 
 import numpy as np
 
@@ -27,10 +27,12 @@ class Table(dict):
         raise KeyError(f"no column {name!r}" + (f"; did you mean {nearest[0]!r}?" if nearest else ""))
 
     def to_pandas(self) -> Any:
-        """A pandas.DataFrame; needs pandas."""
+        """A pandas.DataFrame with the units in `attrs["units"]`; needs pandas."""
         import pandas
 
-        return pandas.DataFrame(dict(self))
+        frame = pandas.DataFrame(dict(self))
+        frame.attrs["units"] = dict(self.units)
+        return frame
 
     def column(self, name: str, vesicle: int) -> np.ndarray:
         """A column of a table of each vesicle, the rows of one of them."""
@@ -43,6 +45,25 @@ class Table(dict):
     def __repr__(self) -> str:
         rows = len(next(iter(self.values()), ()))
         return f"<vehd.Table: {rows} rows of {', '.join(self)}>"
+
+
+def concat(tables: Iterable[Table]) -> Table:
+    """The rows of several tables one after another, with the column `run`: 0 for the first table, 1 for the second …
+    Columns are those that all tables have. Raises InputError where a column has two units."""
+    parts = list(tables)
+    if not parts:
+        raise _core.InputError("concat of no tables")
+    result = Table({"run": np.repeat(np.arange(len(parts)), [len(next(iter(part.values()), ())) for part in parts])})
+    result.units = {"run": ""}
+    for name in parts[0]:
+        if not all(name in part for part in parts):
+            continue
+        units = sorted({part.units.get(name, "") for part in parts})
+        if len(units) > 1:
+            raise _core.InputError(f"column {name!r} has the units {', '.join(map(repr, units))}; accepted: one")
+        result[name] = np.concatenate([part[name] for part in parts])
+        result.units[name] = units[0]
+    return result
 
 
 def read_history(path: Union[str, "os.PathLike[str]"]) -> Table:
