@@ -5,10 +5,13 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <string_view>
+#include <vector>
 
 #include "bie/app/commands.hpp"
 #include "bie/files/json_text.hpp"
 #include "bie/files/versions.hpp"
+#include "bie/scene/nearest_name.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/interruption.hpp"
 #include "bie/support/memory.hpp"
@@ -57,6 +60,15 @@ ExitCode parse_and_run(CLI::App& program, int argc, char** argv, ExitCode& exit_
       return ExitCode::done;
     }
     const auto commands = program.get_subcommands();
+    const std::string_view given = argc > 1 ? argv[1] : "";
+    if (commands.empty() && !given.empty() && !given.starts_with('-')) {
+      std::vector<std::string_view> names;
+      for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+        names.push_back(command->get_name());
+      }
+      return fail(ExitCode::wrong_input,
+                  fmt::format("vehd: unknown command \"{}\"; {}; see vehd --help", given, suggestion(given, names)));
+    }
     const std::string name = commands.empty() ? "vehd" : "vehd " + commands.front()->get_name();
     return fail(ExitCode::wrong_input, fmt::format("{}: {}; see {} --help", name, error.what(), name));
   } catch (const InputError& error) {

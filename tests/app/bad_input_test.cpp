@@ -72,6 +72,10 @@ BOOST_AUTO_TEST_CASE(wrong_usage) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_mistyped_command_names_the_nearest) {
+  check_refused({"paln", "scene.toml"}, "vehd: unknown command \"paln\"; did you mean \"plan\"?; see vehd --help");
+}
+
 BOOST_AUTO_TEST_CASE(help_and_version_succeed) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"--help"}, {"--version"}, {"run", "--help"}, {"plot", "--help"}}) {
