@@ -65,8 +65,7 @@ struct HistoryColumn {
   ColumnMeaning meaning = ColumnMeaning::quantity;
 };
 
-/// All columns in the order of the file: new ones come last, those of an effect that a scene may lack behind all
-/// others.
+/// All columns in the order of the file: new ones come last, so that a file of an earlier vehd has the first of them.
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind = HistoryKind::of_one);
 /// Those of a membrane that porates alone, behind all others.
 std::vector<HistoryColumn> poration_columns(PorationModel model);

@@ -203,6 +203,28 @@ std::vector<HistoryColumn> wall_columns(HistoryKind::Rows rows) {
   return columns;
 }
 
+template <std::size_t l>
+double shape_mode(const HistoryRow& row) {
+  return row.diagnostics.vesicles.front().shape_modes[l - 2];
+}
+
+/// About the field.
+std::vector<HistoryColumn> mode_columns() {
+  return {{"shape_mode_2", "1", shape_mode<2>},
+          {"shape_mode_3", "1", shape_mode<3>},
+          {"shape_mode_4", "1", shape_mode<4>},
+          {"shape_mode_5", "1", shape_mode<5>},
+          {"shape_mode_6", "1", shape_mode<6>}};
+}
+
+/// Of a flow along x with its gradient along z.
+std::vector<HistoryColumn> normal_stress_columns() {
+  return {{"normal_stress_1", "energy",
+           [](const HistoryRow& row) { return rheology_of(row).moment()(0, 0) - rheology_of(row).moment()(2, 2); }},
+          {"normal_stress_2", "energy",
+           [](const HistoryRow& row) { return rheology_of(row).moment()(2, 2) - rheology_of(row).moment()(1, 1); }}};
+}
+
 }  // namespace
 
 std::vector<HistoryColumn> poration_columns(PorationModel model) {
@@ -252,6 +274,9 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
           if (wall) append(wall_columns(static_cast<HistoryKind::Rows>(rows)));
           // Histories of earlier versions end before it.
           if (rows != HistoryKind::of_each) append({{"wrinkle_growth", "1", wrinkle_growth, ColumnMeaning::method}});
+          if (!of_whole) append({{"shape_rate", "1/time", of_vesicle<&D::shape_rate>, ColumnMeaning::method}});
+          if (!of_whole) append(mode_columns());
+          append(normal_stress_columns());
         }
       }
     }

@@ -106,11 +106,17 @@ void add_moments(const DiagnosedModel& model, const SphereTransform& fine, const
   const VolumeMoments moments = volume_moments(s);
   std::tie(d.centroid_x, d.centroid_y, d.centroid_z) = components(moments.centroid);
   if (fields.velocity.size() > 0) {
-    std::tie(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z) =
-        components(centroid_velocity(s, moments, fine.synthesize(fields.velocity)));
+    const Matrix velocity = fine.synthesize(fields.velocity);
+    const Vector3 of_centroid = centroid_velocity(s, moments, velocity);
+    std::tie(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z) = components(of_centroid);
+    const Matrix relative = velocity.rowwise() - of_centroid.transpose();
+    d.shape_rate = relative.cwiseProduct(s.normal).rowwise().sum().cwiseAbs().maxCoeff() /
+                   std::sqrt(d.area / (4.0 * std::numbers::pi));
   }
   d.aspect_ratio = moments.aspect_ratio();
-  if (!model.field.isZero(0.0)) d.aspect_ratio_field = moments.aspect_ratio_along(model.field);
+  if (model.field.isZero(0.0)) return;
+  d.aspect_ratio_field = moments.aspect_ratio_along(model.field);
+  d.shape_modes = shape_modes(s, moments.centroid, model.field);
 }
 
 /// V_m of an averaged field, by its magnitude.

@@ -1,5 +1,6 @@
 #include "bie/stepping/evaluation/volume_moments.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bie/sphere/principal_axes.hpp"
@@ -46,6 +47,21 @@ VolumeMoments volume_moments(const Surface& s) {
 Vector3 centroid_velocity(const Surface& s, const VolumeMoments& moments, const Matrix& velocity) {
   const Matrix y = s.position.rowwise() - moments.centroid.transpose();
   return flux_mean(s, velocity, y).transpose() / enclosed_volume(s);
+}
+
+std::array<double, 5> shape_modes(const Surface& s, const Vector3& centre, const Vector3& axis) {
+  const Matrix y = s.position.rowwise() - centre.transpose();
+  const Vector r = y.rowwise().norm();
+  const Vector cosine = (y * axis.normalized()).cwiseQuotient(r);
+  // r dΩ
+  const Vector weight =
+      y.cwiseProduct(s.normal).rowwise().sum().cwiseProduct(s.quadrature).cwiseQuotient(r.cwiseAbs2());
+  std::array<double, 5> modes{};
+  for (unsigned l = 2; l < 2 + modes.size(); ++l) {
+    const Vector legendre = cosine.unaryExpr([l](double c) { return std::legendre(l, std::clamp(c, -1.0, 1.0)); });
+    modes[l - 2] = (2.0 * l + 1.0) * weight.dot(legendre) / weight.sum();
+  }
+  return modes;
 }
 
 }  // namespace vehd

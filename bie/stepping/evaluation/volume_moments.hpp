@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "bie/geometry/surface.hpp"
 
 namespace vehd {
@@ -27,5 +29,13 @@ VolumeMoments volume_moments(const Surface& surface);
 /// Accuracy: spectral; of a moving ellipsoid to 1e-12 (tests/stepping/evaluation/volume_moments_test.cpp)
 /// Source: Reynolds' transport theorem
 Vector3 centroid_velocity(const Surface& surface, const VolumeMoments& moments, const Matrix& velocity);
+
+/// s_2 … s_6 of the radius r = a(1 + Σ s_l P_l(cos γ)) about a centre, γ the angle from an axis; of what is not
+/// axisymmetric about it the mean over the azimuth:
+///   a s_l = (2l + 1)/(4π) ∮ r P_l(cos γ) dΩ,   dΩ = (x·n)/r³ dA.
+/// The amplitudes of the radius where every ray from the centre meets the surface once.
+/// @param axis  of any length but zero
+/// Accuracy: spectral; 1e-10 of shapes of these modes (tests/stepping/evaluation/volume_moments_test.cpp)
+std::array<double, 5> shape_modes(const Surface& surface, const Vector3& centre, const Vector3& axis);
 
 }  // namespace vehd

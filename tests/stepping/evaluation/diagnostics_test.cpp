@@ -24,7 +24,8 @@ VesicleDiagnostics diagnostics_of_shape(const Matrix& position) {
 }
 
 /// Of V_m = z, without layers.
-VesicleDiagnostics diagnostics_of_potential(const Matrix& position, const DiagnosedModel& model = {}) {
+VesicleDiagnostics diagnostics_of_potential(const Matrix& position, const DiagnosedModel& model = {},
+                                            const Matrix& velocity = {}) {
   const int order = order_of(position.rows());
   const SphereTransform fine(order, make_grid(2 * order));
   Surface surface = make_surface(fine, position);
@@ -34,6 +35,7 @@ VesicleDiagnostics diagnostics_of_potential(const Matrix& position, const Diagno
   vesicle.reference_volume = enclosed_volume(surface);
   VesicleFields fields;
   fields.charge = position.col(2);
+  fields.velocity = velocity;
   NumericalSettings settings;
   settings.order = order;
   VesicleSolution solution;
@@ -190,6 +192,19 @@ BOOST_AUTO_TEST_CASE(potential_is_read_at_both_poles_of_the_field) {
   const VesicleDiagnostics without = diagnostics_of_potential(ellipsoid(kOrder, axes));
   BOOST_TEST(without.Vm_pole_plus == 0.0);
   BOOST_TEST(without.aspect_ratio_field == 0.0);
+}
+
+// Translation and what slides along the surface are none of it.
+BOOST_AUTO_TEST_CASE(shape_rate_is_that_of_the_shape_alone) {
+  const Matrix sphere = ellipsoid(kOrder, {2.0, 2.0, 2.0});
+  Matrix3 rotation;
+  rotation << 0.0, -3.0, 1.0, 3.0, 0.0, 2.0, -1.0, -2.0, 0.0;
+  for (const double stretching : {0.0, -0.5}) {
+    const Matrix3 gradient = rotation + stretching * Matrix3::Identity();
+    const Matrix velocity = translated(sphere * gradient.transpose(), {4.0, 5.0, 6.0});
+    const VesicleDiagnostics d = diagnostics_of_potential(translated(sphere, {1.0, 2.0, 3.0}), {}, velocity);
+    BOOST_TEST(std::abs(d.shape_rate + stretching) < 1e-12);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(aspect_ratios_of_an_ellipsoid_are_those_of_its_axes) {

@@ -1,6 +1,7 @@
 #include "bie/stepping/evaluation/volume_moments.hpp"
 
 #include <Eigen/Geometry>
+#include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -65,6 +66,24 @@ BOOST_AUTO_TEST_CASE(a_body_without_symmetry_has_the_centroid_and_spread_of_its_
   BOOST_TEST((centroid(body.surface) - kCentre - body.centroid).norm() > 1e-3);
   BOOST_TEST((moments.spread - body.spread).norm() < 1e-11);
   BOOST_TEST(std::abs(enclosed_volume(body.surface) - body.volume) < 1e-11 * 30.0);
+}
+
+BOOST_AUTO_TEST_CASE(modes_of_a_shape_are_those_of_its_radius) {
+  const std::array<double, 5> modes = {0.1, -0.05, 0.02, 0.01, -0.03};
+  Vector rho = std::sqrt(4.0 * std::numbers::pi) * harmonic(kOrder, 0, 0);
+  for (int l = 2; l <= 6; ++l) {
+    rho[coefficient_index(l, 0)] =
+        modes[static_cast<std::size_t>(l - 2)] * std::sqrt(4.0 * std::numbers::pi / (2 * l + 1));
+  }
+  rho[coefficient_index(3, 2)] = 0.1;
+  constexpr int kFine = 48;
+  const SphereTransform fine(kOrder, make_grid(kFine));
+  const Matrix directions = grid_directions(fine.grid());
+  const Matrix x = 3.0 * fine.synthesize(rho).col(0).asDiagonal() * directions * kTurn.transpose();
+  const SphereTransform whole(kOrder, make_grid(kFine));
+  const Surface surface = make_surface(whole, translated(whole.analyze(x), kCentre));
+  const std::array<double, 5> found = shape_modes(surface, kCentre, 2.0 * kTurn.col(2));
+  for (std::size_t i = 0; i < modes.size(); ++i) BOOST_TEST(std::abs(found[i] - modes[i]) < 1e-10);
 }
 
 BOOST_AUTO_TEST_CASE(an_ellipsoid_has_its_centre_and_its_axes) {
