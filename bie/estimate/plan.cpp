@@ -122,7 +122,7 @@ std::vector<Waveform> waveforms_of(const Scene& scene) {
   std::vector<Waveform> result;
   for (const Scene& one : each_alone(scene)) {
     for (const ActingWaveform& acting : acting_waveforms(one)) {
-      const Waveform waveform = waveform_of(*acting.waveform);
+      const Waveform waveform = waveform_of(acting.waveform);
       if (std::ranges::find(result, waveform) == result.end()) result.push_back(waveform);
     }
   }
@@ -136,7 +136,7 @@ double fewest_events(const Scene& scene) {
   double count = scene.numerics.tolerance ? 0.0 : events_of(scene).snapshots.count(end);
   for (const Scene& one : each_alone(scene)) {
     for (const ActingWaveform& acting : acting_waveforms(one)) {
-      if (acting.waveform->kind != WaveformKind::ac) count += fewest_steps(*acting.waveform, end);
+      if (!alternates(acting.waveform)) count += fewest_steps(acting.waveform, end);
     }
   }
   return count;

@@ -26,6 +26,7 @@ void end_at_data(Scene& scene, const Experiment& experiment, const DataOfRun& of
   const auto repeated = std::ranges::unique(scene.output.times);
   scene.output.times.erase(repeated.begin(), repeated.end());
   scene.numerics.end_time = scene.output.times.back();
+  scene.numerics.until = RunsUntil::end_time;
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ struct AppliedField {
   double permittivity = 1.0;          ///< epsilon outside
   Waveform waveform{};                ///< of the field
   bool displacement_current = false;  ///< in both fluids
-  /// Of a field that alternates so fast that only the mean of its force over a period moves anything; the waveform is 1
-  /// then.
+  /// Of a field that alternates so fast that only the mean of its force over a period moves anything; the waveform is
+  /// that of its amplitude then.
   std::optional<double> averaged_frequency{};
 };
 

@@ -25,6 +25,14 @@ Waveform Waveform::alternating(double amplitude, double frequency, double phase)
   return w;
 }
 
+Waveform Waveform::burst(double amplitude, double frequency, double phase, double start, double duration) {
+  Waveform w = alternating(amplitude, frequency, phase);
+  w.kind_ = Kind::burst;
+  w.start_ = start;
+  w.duration_ = duration;
+  return w;
+}
+
 Waveform Waveform::pulse(double amplitude, double start, double duration) {
   Waveform w(Kind::pulse, amplitude);
   w.start_ = start;
@@ -59,13 +67,19 @@ double Waveform::slack(double time) const {
   return kSameTime * std::max(span, std::abs(time));
 }
 
+double Waveform::oscillation(double time) const {
+  return amplitude_ * std::cos(2.0 * std::numbers::pi * frequency_ * time + phase_);
+}
+
 double Waveform::at(double time, Limit limit) const {
   const double shifted = limit == Limit::after ? time + slack(time) : time - slack(time);
   switch (kind_) {
     case Kind::constant:
       return 1.0;
     case Kind::alternating:
-      return amplitude_ * std::cos(2.0 * std::numbers::pi * frequency_ * time + phase_);
+      return oscillation(time);
+    case Kind::burst:
+      return shifted > start_ && shifted < start_ + duration_ ? oscillation(time) : 0.0;
     case Kind::pulse:
       return shifted > start_ && shifted < start_ + duration_ ? amplitude_ : 0.0;
     case Kind::pulse_train: {
@@ -90,6 +104,7 @@ std::optional<double> Waveform::next_discontinuity(double time) const {
     case Kind::constant:
     case Kind::alternating:
       return std::nullopt;
+    case Kind::burst:
     case Kind::pulse:
       if (start_ > after) return start_;
       if (start_ + duration_ > after) return start_ + duration_;
@@ -116,6 +131,8 @@ bool Waveform::is_quiet(double time) const {
   if (kind_ == Kind::constant) return false;
   if (kind_ == Kind::alternating) return amplitude_ == 0.0;
   const std::optional<double> discontinuity = next_discontinuity(time);
+  // Within a burst two zeros are no quiet.
+  if (kind_ == Kind::burst) return !discontinuity || *discontinuity == start_;
   return at(time) == 0.0 && (!discontinuity || at(*discontinuity, Limit::before) == 0.0);
 }
 

@@ -17,6 +17,8 @@ class Waveform {
   Waveform() = default;
   /// amplitude · cos(2π frequency t + phase), phase in radians.
   static Waveform alternating(double amplitude, double frequency, double phase);
+  /// The same during [start, start + duration), 0 otherwise.
+  static Waveform burst(double amplitude, double frequency, double phase, double start, double duration);
   /// amplitude during [start, start + duration), 0 otherwise.
   static Waveform pulse(double amplitude, double start, double duration);
   /// A pulse at start, start + period, …
@@ -38,12 +40,13 @@ class Waveform {
   bool operator==(const Waveform&) const = default;
 
  private:
-  enum class Kind { constant, alternating, pulse, pulse_train, table };
+  enum class Kind { constant, alternating, burst, pulse, pulse_train, table };
 
   Waveform(Kind kind, double amplitude) : kind_(kind), amplitude_(amplitude) {}
 
   /// Rounding of a time near a discontinuity.
   [[nodiscard]] double slack(double time) const;
+  [[nodiscard]] double oscillation(double time) const;
 
   Kind kind_ = Kind::constant;
   double amplitude_ = 1.0, frequency_ = 0.0, phase_ = 0.0;

@@ -168,7 +168,7 @@ void draw_scale_bar(Page& page, const Box& box, const KeyTask& task) {
                         "#000000"});
 }
 
-bool alternates(const std::optional<WaveformScene>& waveform) { return waveform && waveform->kind == WaveformKind::ac; }
+bool alternates(const std::optional<WaveformScene>& waveform) { return waveform && alternates(*waveform); }
 
 }  // namespace
 

@@ -53,6 +53,8 @@ RunOutcome advance_to_end(RecordedRun& run, const Ranks& ranks, Interruption& in
       }
       run.step();
     }
+    // One that ends at rest has no snapshot of that time.
+    if (simulation.evolution().state().time < simulation.scene().numerics.end_time) run.keep_last_state();
     return {.completed = true, .reason = {}};
   } catch (const ConvergenceError& error) {
     return run.failed(error);
@@ -142,10 +144,14 @@ void RecordedRun::snapshot() {
   });
 }
 
-RunOutcome RecordedRun::failed(const ConvergenceError& error) {
+void RecordedRun::keep_last_state() {
   ranks_.together([&] {
     if (recorder_) recorder_->keep_last_state(simulation_.evolution().evaluation().fields);
   });
+}
+
+RunOutcome RecordedRun::failed(const ConvergenceError& error) {
+  keep_last_state();
   return {.completed = false, .reason = error.what(), .cannot_step = true};
 }
 

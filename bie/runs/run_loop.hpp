@@ -58,6 +58,8 @@ class RecordedRun {
   void snapshot();
   /// How the run has ended where a step has thrown this: a snapshot of the last state is added.
   [[nodiscard]] RunOutcome failed(const ConvergenceError& error);
+  /// The state of the last step becomes a snapshot, unless it is one.
+  void keep_last_state();
   /// Brings all files up to date. @throws OutputError
   void end(const RunOutcome& outcome);
 

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "bie/scene/effective_scene.hpp"
+#include "bie/scene/vesicles.hpp"
+#include "bie/scene/waveforms.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/support/ranks/parcel.hpp"
@@ -130,6 +132,25 @@ RunStatus Simulation::status() const {
   return {
       state.step,       shown(start_time_), shown(state.time), shown(scene_.numerics.end_time), shown(last_.dt), drift,
       meter_.seconds(), time_unit_.symbol,  gap_text()};
+}
+
+/// Whether a run until rest may end.
+bool Simulation::at_rest() const {
+  const NumericsScene& numerics = scene_.numerics;
+  if (numerics.until != RunsUntil::rest) return false;
+  constexpr double without_tolerance = 1e-3;
+  const double time = evolution_.state().time;
+  const auto changes = [&](const VesicleDiagnostics& vesicle) {
+    return !(vesicle.shape_rate * (numerics.end_time - time) < numerics.tolerance.value_or(without_tolerance));
+  };
+  if (std::ranges::any_of(evolution_.evaluation().diagnostics.vesicles, changes)) return false;
+  for (const Scene& one : each_alone(scene_)) {
+    for (const ActingWaveform& acting : acting_waveforms(one)) {
+      if (acting.waveform.kind == WaveformKind::ac) return false;
+      if (waveform_of(acting.waveform).next_discontinuity(time)) return false;
+    }
+  }
+  return true;
 }
 
 /// As the history shows it; empty of a single vesicle.

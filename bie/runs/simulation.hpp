@@ -61,7 +61,7 @@ class Simulation {
   /// Solves everything at the start; before the first step. @throws ConvergenceError
   void start();
   /// Whether the end of the scene is reached.
-  [[nodiscard]] bool at_end() const { return evolution_.state().time >= scene_.numerics.end_time; }
+  [[nodiscard]] bool at_end() const { return evolution_.state().time >= scene_.numerics.end_time || at_rest(); }
   /// One accepted step. @throws ConvergenceError where none is acceptable; everything stays as it is
   void step() { step(events_); }
   /// The same towards other times than those of the scene. @throws ConvergenceError
@@ -97,6 +97,7 @@ class Simulation {
   [[nodiscard]] RecordedSide side_of(const State& state, const Evaluation& evaluation, const SmallestGap& gap,
                                      const StepAttempt& step) const;
   [[nodiscard]] std::string gap_text() const;
+  [[nodiscard]] bool at_rest() const;
 
   const Scene& scene_;
   Instruments instruments_;

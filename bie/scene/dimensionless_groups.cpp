@@ -80,7 +80,7 @@ class Groups {
       const double charging_time = vesicle_.charging.capacitance / rate;
       time("charging time", "t_m", charging_time, "C_m/(G_m + 2σ_iσ_e/((σ_i + 2σ_e)a)): a sphere's membrane charges");
       const auto& waveform = scene_.electric->waveform;
-      if (waveform && waveform->kind == WaveformKind::ac) {
+      if (waveform && alternates(*waveform)) {
         number("frequency", "ωt_m", 2.0 * pi * waveform->frequency * charging_time,
                "2πf t_m: above 1 the field passes through the membrane");
       }

@@ -36,14 +36,23 @@ void add_shape(auto& scene) {
              {"ellipsoid", "prolate", "oblate", "biconcave", "stomatocyte", "radial", "file"},
              "how the initial shape is given; the middle four have the axis z", required);
   shape.of("ellipsoid").key("axes", &ShapeScene::axes, size_range, {"", "length", "semi-axes along x, y, z", required});
-  const auto reduced_volume = [&](std::string_view kind, Range range, bool is_required, std::string_view text) {
-    shape.of(kind).key("reduced_volume", &ShapeScene::reduced_volume, range, {"v", "1", text, is_required});
+  const auto reduced_volume = [&](std::string_view kind, Range range, std::string_view text) {
+    shape.of(kind).key("reduced_volume", &ShapeScene::reduced_volume, range, {"v", "1", text});
   };
-  constexpr std::string_view definition = "6√π V/A^{3/2}; size: area 4π";
-  reduced_volume("prolate", {0.2, 1.0}, required, definition);
-  reduced_volume("oblate", {0.1, 1.0}, required, definition);
-  reduced_volume("biconcave", {0.5, 0.75}, false, definition);
-  reduced_volume("stomatocyte", {0.1, 0.65}, required, "6√π V/A^{3/2}; size: area 4π; open towards −z");
+  constexpr std::string_view definition = "6√π V/A^{3/2}, required, this or excess_area; size: area 4π";
+  reduced_volume("prolate", {0.2, 1.0}, definition);
+  reduced_volume("oblate", {0.1, 1.0}, definition);
+  reduced_volume("biconcave", {0.5, 0.75}, "6√π V/A^{3/2}; absent: 0.65; size: area 4π");
+  reduced_volume("stomatocyte", {0.1, 0.65},
+                 "6√π V/A^{3/2}, required, this or excess_area; size: area 4π; open towards −z");
+  shape.of("ellipsoid", "radial")
+      .key("reduced_volume", &ShapeScene::reduced_volume, {0.1, 1.0},
+           {"v", "1",
+            "6√π V/A^{3/2}, reached by moving all points towards the sphere of this area or away from it; absent: as "
+            "it is"});
+  shape.of("ellipsoid", "prolate", "oblate", "biconcave", "stomatocyte", "radial")
+      .key("excess_area", &ShapeScene::excess_area, not_negative,
+           {"Δ", "1", "A/a_V² − 4π, a_V the radius of the sphere of this volume: v = (1 + Δ/4π)^{-3/2}"});
   auto radial = shape.of("radial");
   radial.key("base", &ShapeScene::base, {"", "length", "constant part of the radius; may be left out with area"})
       .default_has_effect = [](const Scene& s) { return !s.shape.area; };
@@ -66,16 +75,18 @@ void add_shape(auto& scene) {
 
 /// @param waveform  the table, of which only some kinds have an average
 auto add_waveform(auto waveform) {
-  waveform.word("kind", &WaveformScene::kind, {"dc", "ac", "pulse", "pulse_train", "table"},
-                "constant; cos(2πft + phase); 1 during [start, start + duration); that in every period; linear between "
+  waveform.word("kind", &WaveformScene::kind, {"dc", "ac", "burst", "pulse", "pulse_train", "table"},
+                "constant; cos(2πft + phase); that during [start, start + duration); 1 during [start, start + "
+                "duration); that in every period; linear between "
                 "the entries of a table",
                 required);
-  auto ac = waveform.of("ac"), pulse = waveform.of("pulse", "pulse_train"), table = waveform.of("table");
+  auto ac = waveform.of("ac", "burst"), pulse = waveform.of("burst", "pulse", "pulse_train"),
+       table = waveform.of("table");
   ac.key("frequency", &WaveformScene::frequency, positive,
          {"f", "1/time", "at least four steps a period are taken, unless it is averaged", required});
   ac.key("phase", &WaveformScene::phase, {"", "1", "in radians; −π/2 makes a sine"});
-  pulse.key("start", &WaveformScene::start, {"", "time", "of the first pulse"});
-  pulse.key("duration", &WaveformScene::duration, positive, {"", "time", "of a pulse", required});
+  pulse.key("start", &WaveformScene::start, {"", "time", "of the first pulse, or of the burst"});
+  pulse.key("duration", &WaveformScene::duration, positive, {"", "time", "of a pulse, or of the burst", required});
   waveform.of("pulse_train")
       .key("period", &WaveformScene::period, positive,
            {"", "time", "from pulse to pulse; longer than a pulse", required});
@@ -207,6 +218,8 @@ void add_flow(auto& scene) {
 void add_electric(auto& scene) {
   auto electric = scene.optional("electric", &Scene::electric, "applied field; absent: nothing electric is assembled");
   electric.key("field", &ElectricScene::field, {"E_∞", "field", "applied uniform field", required});
+  electric.key("field_magnitude", &ElectricScene::field_magnitude, not_negative,
+               {"|E_∞|", "field", "field gives the direction alone; absent: its magnitude as well"});
   electric.key("conductivity_in", &ElectricScene::conductivity_in, not_negative,
                {"σ_i", "conductivity", "of the fluid inside", required});
   electric.key("conductivity_out", &ElectricScene::conductivity_out, not_negative,
@@ -284,6 +297,9 @@ void add_numerics(auto& scene) {
                 "work; with a tolerance at least 2, by default 5"});
   numerics.key("end_time", &NumericsScene::end_time, not_negative,
                {"", "time", "0 solves and writes the initial state alone", required});
+  numerics.word("until", &NumericsScene::until, {"end_time", "rest"},
+                "rest: the run ends earlier, once no waveform changes any more and the shape would change by less than "
+                "the tolerance (1e-3 without one) up to end_time at its present rate");
   numerics.word("symmetry", &NumericsScene::symmetry, {"auto", "off", "axisymmetric"},
                 "use what is found; use none; refuse a scene that is not axisymmetric about any axis");
   numerics.key(

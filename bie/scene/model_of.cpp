@@ -18,7 +18,7 @@ namespace {
 Waveform waveform_in(const Scene& scene, std::string_view table) {
   const std::vector<ActingWaveform> acting = acting_waveforms(scene);
   const auto found = std::ranges::find(acting, table, &ActingWaveform::table);
-  return found == acting.end() ? Waveform() : waveform_of(*found->waveform);
+  return found == acting.end() ? Waveform() : waveform_of(found->waveform);
 }
 
 BackgroundFlow linear_flow(const FlowScene& flow) {
@@ -83,8 +83,8 @@ double longest_step_in_a_period(const Scene& scene) {
   double result = std::numeric_limits<double>::infinity();
   for (const Scene& one : each_alone(scene)) {
     for (const ActingWaveform& acting : acting_waveforms(one)) {
-      if (acting.waveform->kind != WaveformKind::ac) continue;
-      result = std::min(result, 1.0 / (fewest_steps_a_period * acting.waveform->frequency));
+      if (!alternates(acting.waveform)) continue;
+      result = std::min(result, 1.0 / (fewest_steps_a_period * acting.waveform.frequency));
     }
   }
   return result;

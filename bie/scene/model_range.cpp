@@ -40,7 +40,7 @@ double largest_factor(const WaveformScene& waveform) {
 
 /// In which the field changes: 1/ω, a pulse, the shortest interval of a table.
 double shortest_time(const WaveformScene& waveform) {
-  if (waveform.kind == WaveformKind::ac) return 1.0 / (2.0 * std::numbers::pi * waveform.frequency);
+  if (alternates(waveform)) return 1.0 / (2.0 * std::numbers::pi * waveform.frequency);
   if (waveform.kind == WaveformKind::pulse || waveform.kind == WaveformKind::pulse_train) return waveform.duration;
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < waveform.times.size(); ++i) {
@@ -54,7 +54,9 @@ double shortest_time(const WaveformScene& waveform) {
 double exposure(const std::optional<WaveformScene>& waveform, double end) {
   if (!waveform || waveform->kind == WaveformKind::dc) return end;
   if (waveform->kind == WaveformKind::ac) return 0.5 * end;
-  if (waveform->kind == WaveformKind::pulse) return std::clamp(end - waveform->start, 0.0, waveform->duration);
+  const double in_pulse = std::clamp(end - waveform->start, 0.0, waveform->duration);
+  if (waveform->kind == WaveformKind::burst) return 0.5 * in_pulse;
+  if (waveform->kind == WaveformKind::pulse) return in_pulse;
   if (waveform->kind == WaveformKind::pulse_train) return end * waveform->duration / waveform->period;
   const std::vector<double>&times = waveform->times, &values = waveform->values;
   double sum = 0.0;
@@ -194,7 +196,7 @@ class Judge {
   [[nodiscard]] double charged_share() const {
     const ElectricScene& electric = *scene_.electric;
     const double charging = group("t_m"), end = scene_.numerics.end_time;
-    if (electric.waveform && electric.waveform->kind == WaveformKind::ac) {
+    if (electric.waveform && alternates(*electric.waveform)) {
       return 1.0 / std::hypot(1.0, 2.0 * std::numbers::pi * electric.waveform->frequency * charging);
     }
     if (electric.initial_potential == InitialPotential::steady) return 1.0;

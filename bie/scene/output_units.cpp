@@ -142,6 +142,11 @@ std::string si_number(double value, std::string_view dimension) {
   return fmt::format("{:.4g} {}", in_unit(value, known, symbol), symbol);
 }
 
+std::string quantity_text(const std::optional<UnitsScene>& units, double value, std::string_view dimension) {
+  const double si = value * si_scale(units, dimension);
+  return std::isnan(si) || si == 0.0 ? fmt::format("{:g}", value) : si_number(si, dimension);
+}
+
 std::string printed_unit(std::string_view symbol) {
   std::string text(symbol);
   // No unit of results but the prefix begins so.

@@ -44,6 +44,9 @@ class OutputUnits {
 /// @param dimension  of results: see OutputUnits
 std::string si_number(double value, std::string_view dimension);
 
+/// A number of a scene with the SI unit of its dimension, or as it is where the scene has no scale for it.
+std::string quantity_text(const std::optional<UnitsScene>& units, double value, std::string_view dimension);
+
 /// A symbol as in print: "µm²" of "um^2".
 std::string printed_unit(std::string_view symbol);
 

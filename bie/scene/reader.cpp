@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "bie/files/run_reader.hpp"
 #include "bie/scene/accuracy.hpp"
@@ -120,6 +121,44 @@ void apply_tolerance(NumericsScene& numerics, const toml::table& table) {
   if (!has_key(table, *find_key("numerics", "degree"))) numerics.order = default_order(*numerics.tolerance);
 }
 
+/// Finds the reduced volume of an excess area and of a family of shapes.
+void settle_reduced_volume(const Scene& scene, ShapeScene& shape, const TomlFile& file) {
+  const KeyDescription* key = find_key_of_kind("shape", "reduced_volume", kind_of(scene, "shape"));
+  if (key == nullptr) return;
+  if (shape.excess_area) {
+    if (shape.reduced_volume) {
+      file.refuse_key("shape", "excess_area",
+                      "\"excess_area\" in [shape] together with \"reduced_volume\"; accepted: one of them");
+    }
+    shape.reduced_volume = std::pow(1.0 + *shape.excess_area / (4.0 * std::numbers::pi), -1.5);
+    if (!key->takes(*shape.reduced_volume)) {
+      file.refuse_key(
+          "shape", "excess_area",
+          "\"excess_area\" in [shape] is {:g}, a reduced volume of {:.3g}; accepted: a reduced volume of {}",
+          *shape.excess_area, *shape.reduced_volume, key->accepted_text());
+    }
+    shape.excess_area.reset();
+  }
+  if (shape.reduced_volume || shape.kind == ShapeKind::ellipsoid || shape.kind == ShapeKind::radial) return;
+  if (shape.kind != ShapeKind::biconcave) {
+    file.refuse(*file.find("shape"), "missing key \"reduced_volume\" in [shape] ({}); accepted: {}", key->description,
+                key->accepted_text());
+  }
+  shape.reduced_volume = 0.65;
+}
+
+/// Gives the field its magnitude, where the scene has one of its own.
+void scale_field(ElectricScene& electric, const TomlFile& file) {
+  if (!electric.field_magnitude) return;
+  const double size = std::hypot(electric.field[0], electric.field[1], electric.field[2]);
+  if (size == 0.0) {
+    file.refuse_key("electric", "field",
+                    "\"field\" in [electric] is 0 beside \"field_magnitude\"; accepted: a direction");
+  }
+  for (double& component : electric.field) component *= *electric.field_magnitude / size;
+  electric.field_magnitude.reset();
+}
+
 /// Nothing but the tables that a scene may have.
 void require_known_tables(const TomlFile& file) {
   std::vector<std::string_view> known;
@@ -158,6 +197,8 @@ Scene scene_of(const TomlFile& file, const std::filesystem::path& folder, const 
     }
   }
   require_keys(scene, file);
+  settle_reduced_volume(scene, scene.shape, file);
+  if (scene.electric) scale_field(*scene.electric, file);
   read_number_files(scene, folder);
   apply_tolerance(scene.numerics, *file.find("numerics"));
   return scene;

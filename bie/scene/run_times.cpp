@@ -29,16 +29,17 @@ std::vector<RunTime> run_times(const Scene& scene, const std::vector<Dimensionle
   const auto add_waveform = [&](const std::string& of, const std::optional<WaveformScene>& waveform) {
     if (!waveform) return;
     const auto count = [end](double time) { return fmt::format("{:.3g}", end / time); };
-    const double period = waveform->kind == WaveformKind::ac ? 1.0 / waveform->frequency : waveform->period;
-    if (waveform->kind == WaveformKind::ac) {
+    const double period = alternates(*waveform) ? 1.0 / waveform->frequency : waveform->period;
+    if (alternates(*waveform)) {
       add(of + " period", "1/f", period,
           (waveform->average ? "averaged; the run has " : "at least four steps each; the run has ") + count(period));
     }
     if (waveform->kind == WaveformKind::pulse_train) {
       add(of + " period", "", period, "from pulse to pulse; the run has " + count(period));
     }
-    if (waveform->kind == WaveformKind::pulse_train || waveform->kind == WaveformKind::pulse) {
-      add(of + " pulse", "", waveform->duration,
+    if (waveform->kind == WaveformKind::pulse_train || waveform->kind == WaveformKind::pulse ||
+        waveform->kind == WaveformKind::burst) {
+      add(of + (waveform->kind == WaveformKind::burst ? " burst" : " pulse"), "", waveform->duration,
           fmt::format("a step ends where it begins and ends; the run lasts {} of it", count(waveform->duration)));
     }
   };

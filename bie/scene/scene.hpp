@@ -34,7 +34,7 @@ enum class FlowKind { shear, planar_extension, axisymmetric_extension, gradient,
 /// Values of section in [flow].
 enum class FlowSection { tube, slit };
 /// Values of kind in a waveform.
-enum class WaveformKind { dc, ac, pulse, pulse_train, table };
+enum class WaveformKind { dc, ac, burst, pulse, pulse_train, table };
 /// Values of model in [poration].
 enum class PorationModel { criterion, porosity, pores };
 constexpr std::size_t n_poration_models = 3;
@@ -42,6 +42,9 @@ constexpr std::size_t n_poration_models = 3;
 enum class InitialPotential { zero, steady, file };
 /// Values of symmetry in [numerics].
 enum class SymmetryUse { automatic, off, axisymmetric };
+
+/// Values of until in [numerics].
+enum class RunsUntil { end_time, rest };
 
 /// Values of units in [output].
 enum class ResultUnits { automatic, si, dimensionless };
@@ -57,7 +60,8 @@ struct UnitsScene {
 struct ShapeScene {
   ShapeKind kind = ShapeKind::ellipsoid;
   Triple axes{1.0, 1.0, 1.0};
-  double reduced_volume = 0.65;
+  std::optional<double> reduced_volume;  ///< of a prolate, oblate, biconcave or stomatocyte always present
+  std::optional<double> excess_area{};   ///< that the reduced volume is still to be found of
   double base = 1.0;
   std::optional<double> amplitude;  ///< absent: radius = base + s, otherwise base + amplitude exp(exponent s)
   double exponent = 1.0;
@@ -80,6 +84,10 @@ struct WaveformScene {
   std::vector<double> times, values;
   bool operator==(const WaveformScene&) const = default;
 };
+
+inline bool alternates(const WaveformScene& waveform) {
+  return waveform.kind == WaveformKind::ac || waveform.kind == WaveformKind::burst;
+}
 
 /// Values of kind in the table of a spatially varying property.
 enum class PlaceKind { harmonics, cap, file };
@@ -174,6 +182,7 @@ struct FlowScene {
 /// Table [electric].
 struct ElectricScene {
   Triple field{0.0, 0.0, 0.0};
+  std::optional<double> field_magnitude{};  ///< that the field is still to be scaled to
   double conductivity_in = 1.0, conductivity_out = 1.0, permittivity = 1.0, permittivity_ratio = 1.0;
   bool displacement_current = false;
   std::optional<WaveformScene> waveform;                        ///< absent: constant
@@ -198,6 +207,7 @@ struct NumericsScene {
   std::optional<double> dt;         ///< with a tolerance: the largest step, or none; without: always present
   int time_order = 1;
   double end_time = 0.0;
+  RunsUntil until = RunsUntil::end_time;
   SymmetryUse symmetry = SymmetryUse::automatic;
   bool error_bars = false;
   bool operator==(const NumericsScene&) const = default;
@@ -251,7 +261,7 @@ struct Scene {
 
 /// Does only the mean of the field's force over a period count?
 inline bool has_averaged_field(const Scene& scene) {
-  return scene.electric && scene.electric->waveform && scene.electric->waveform->kind == WaveformKind::ac &&
+  return scene.electric && scene.electric->waveform && alternates(*scene.electric->waveform) &&
          scene.electric->waveform->average;
 }
 

@@ -14,6 +14,7 @@ namespace vehd {
 namespace {
 
 constexpr std::string_view option = "--set ";
+constexpr std::string_view vesicle_prefix = "vesicle.";
 
 std::string trimmed(const std::string& text) {
   const std::size_t start = text.find_first_not_of(" \t");
@@ -39,6 +40,7 @@ std::pair<std::string, std::string> assignment_of(const std::string& setting) {
   if (equals == std::string::npos) refuse("no value", form);
   const std::string key = trimmed(setting.substr(0, equals));
   const auto n_points = std::ranges::count(key, '.');
+  if (key.starts_with(vesicle_prefix)) return {key, trimmed(setting.substr(equals + 1))};
   if (!is_dotted_name(key) || (n_points > 2 && find_table(key.substr(0, key.rfind('.'))) == nullptr)) {
     refuse(fmt::format("\"{}\" is no key", key), form);
   }
@@ -60,17 +62,44 @@ bool is_toml_value(const std::string& text) {
   }
 }
 
-/// A key of two names is not to be there under both.
+/// The table that a setting "vesicle.NAME.table.key" is for, and "table.key".
+std::pair<toml::table*, std::string> of_vesicle(toml::table& file, const std::string& key, const std::string& setting) {
+  const toml::array* vesicles = file["vesicle"].as_array();
+  std::vector<std::string> names;
+  for (std::size_t a = 0; vesicles != nullptr && a < vesicles->size(); ++a) {
+    toml::table* table = (*file["vesicle"].as_array())[a].as_table();
+    if (table == nullptr) continue;
+    names.push_back((*table)["name"].value_or(std::to_string(a)));
+    const std::string own_key = key_of_vesicle(key, {names.back()});
+    if (own_key != key && is_dotted_name(own_key)) return {table, own_key};
+  }
+  throw InputError(fmt::format("{}{}: \"{}\" is no key of a vesicle; accepted: vesicle.NAME.table.key{}{}", option,
+                               setting, key, names.empty() ? ", in a scene with tables [[vesicle]]" : ", NAME of ",
+                               fmt::join(names, ", ")));
+}
+
+/// A key of two names is not to be there under both, nor one of two that say the same.
 void forget_other_name(toml::table& file, const std::string& name) {
   const std::size_t last = name.rfind('.');
   const std::string table = name.substr(0, last), word = name.substr(last + 1);
   const KeyDescription* key = find_key(table, word);
   toml::table* owner = file.at_path(table).as_table();
-  if (key == nullptr || owner == nullptr || key->other_name.empty()) return;
+  if (key == nullptr || owner == nullptr) return;
+  if (name == "shape.excess_area") owner->erase("reduced_volume");
+  if (name == "shape.reduced_volume") owner->erase("excess_area");
+  if (key->other_name.empty()) return;
   owner->erase(word == key->name ? key->other_name : key->name);
 }
 
 }  // namespace
+
+std::string key_of_vesicle(const std::string& key, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const std::string start = fmt::format("{}{}.", vesicle_prefix, name);
+    if (key.starts_with(start)) return key.substr(start.size());
+  }
+  return key;
+}
 
 void merge_tables(toml::table& to, toml::table&& from) {
   for (auto&& [key, node] : from) {
@@ -87,9 +116,11 @@ void merge_tables(toml::table& to, toml::table&& from) {
 void apply_settings(toml::table& file, const std::vector<std::string>& settings) {
   for (const std::string& setting : settings) {
     const auto [key, given] = assignment_of(setting);
-    forget_other_name(file, key);
+    const auto [owner, own_key] =
+        key.starts_with(vesicle_prefix) ? of_vesicle(file, key, setting) : std::pair(&file, key);
+    forget_other_name(*owner, own_key);
     const std::string value = is_toml_value(given) ? given : to_toml(Value(given));
-    merge_tables(file, toml::parse(key + " = " + value + "\n", std::string(option) + setting));
+    merge_tables(*owner, toml::parse(own_key + " = " + value + "\n", std::string(option) + setting));
   }
 }
 

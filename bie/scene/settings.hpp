@@ -20,9 +20,12 @@ struct SceneSource {
 /// Puts values into the tables of a scene file. A value is TOML; what is no TOML is a text, so that a shell's words
 /// need no quotes of their own: flow.kind=shear, flow.rate=2 1/s. Messages about a value name its option in place of a
 /// line.
-/// @param settings  "table.key=value"
+/// @param settings  "table.key=value", or "vesicle.NAME.table.key=value" of one of several vesicles
 /// @throws InputError if one of them is not of that form; what it says is checked with the rest of the scene
 void apply_settings(toml::table& file, const std::vector<std::string>& settings);
+
+/// "table.key" of "vesicle.NAME.table.key" with one of these names; any other key as it is.
+std::string key_of_vesicle(const std::string& key, const std::vector<std::string>& names);
 
 /// Moves what `from` has into `to`, where its values take the place of others: a node that is copied forgets where it
 /// was written.

@@ -13,7 +13,9 @@
 #include "bie/scene/nearest_name.hpp"
 #include "bie/scene/read/toml_values.hpp"
 #include "bie/scene/reader.hpp"
+#include "bie/scene/settings.hpp"
 #include "bie/scene/units.hpp"
+#include "bie/scene/vesicles.hpp"
 
 namespace vehd {
 namespace {
@@ -40,14 +42,13 @@ std::string value_text(const toml::node& node) {
 /// One key of [vary] in its file.
 class VariedKeyReader {
  public:
-  /// @param units  of the base scene
-  VariedKeyReader(const std::string& name, const toml::table& table, const TomlFile& file,
-                  const std::optional<UnitsScene>& units)
+  /// @param scene  the base scene
+  VariedKeyReader(const std::string& name, const toml::table& table, const TomlFile& file, const Scene& scene)
       : name_(name),
         table_(table),
         file_(file),
-        units_(units),
-        descriptions_(keys_named(name, place(table, file.name), "[vary]")) {}
+        units_(scene.units),
+        descriptions_(keys_named(key_of_vesicle(name, vesicle_names(scene)), place(table, file.name), "[vary]")) {}
 
   /// @throws InputError if the key does not accept one of the values
   [[nodiscard]] VariedKey read() const {
@@ -111,11 +112,26 @@ class VariedKeyReader {
     return *quantity;
   }
 
-  [[nodiscard]] std::vector<VariedValue> values_of_range(bool logarithmic) const {
-    const Quantity from = end_of_range("from"), to = end_of_range("to");
-    if (from.unit != to.unit) {
-      refuse(*table_.get("to"), "goes from a value in \"{}\" to one in \"{}\"; accepted: one unit", from.unit, to.unit);
+  /// The end of a range in the unit of its start.
+  [[nodiscard]] Quantity in_unit_of(const Quantity& from, Quantity to) const {
+    if (from.unit == to.unit) return to;
+    const Dimension* dimension = find_dimension(descriptions_.front()->unit);
+    const auto factor = [&](const Quantity& end) {
+      const Unit* unit = dimension != nullptr ? dimension->find(end.unit) : nullptr;
+      const auto temperature = units_ ? units_->temperature : std::nullopt;
+      return unit != nullptr ? Quantity{1.0, ""}.in_si(*unit, temperature) : std::nan("");
+    };
+    to.number *= factor(to) / factor(from);
+    if (!std::isfinite(to.number)) {
+      refuse(*table_.get("to"), "goes from a value in \"{}\" to one in \"{}\"; accepted: units of one dimension",
+             from.unit, to.unit);
     }
+    to.unit = from.unit;
+    return to;
+  }
+
+  [[nodiscard]] std::vector<VariedValue> values_of_range(bool logarithmic) const {
+    const Quantity from = end_of_range("from"), to = in_unit_of(from, end_of_range("to"));
     const toml::node* counted = table_.get("count");
     const std::int64_t count = counted != nullptr ? counted->value<std::int64_t>().value_or(0) : 0;
     if (count < 2 || count > static_cast<std::int64_t>(most_runs)) {
@@ -190,7 +206,7 @@ void add_varied_keys(const toml::table& table, const std::string& prefix, const 
     if (name == "output.units") {
       file.refuse(node, "\"{}\" in [vary]: one table has one set of units; give it in the scene", name);
     }
-    sweep.keys.push_back(VariedKeyReader(name, *inner, file, sweep.scene.units).read());
+    sweep.keys.push_back(VariedKeyReader(name, *inner, file, sweep.scene).read());
   }
 }
 

@@ -17,6 +17,7 @@ bool is_zero(const FlowScene& flow) {
 
 Waveform waveform_of(const WaveformScene& w) {
   if (w.kind == WaveformKind::ac) return Waveform::alternating(1.0, w.frequency, w.phase);
+  if (w.kind == WaveformKind::burst) return Waveform::burst(1.0, w.frequency, w.phase, w.start, w.duration);
   if (w.kind == WaveformKind::pulse) return Waveform::pulse(1.0, w.start, w.duration);
   if (w.kind == WaveformKind::pulse_train) return Waveform::pulse_train(1.0, w.start, w.duration, w.period);
   return w.kind == WaveformKind::table ? Waveform::table(w.times, w.values) : Waveform();
@@ -25,11 +26,16 @@ Waveform waveform_of(const WaveformScene& w) {
 std::vector<ActingWaveform> acting_waveforms(const Scene& scene) {
   std::vector<ActingWaveform> result;
   const auto add = [&](std::string_view table, const std::optional<WaveformScene>& waveform) {
-    if (waveform) result.push_back({table, &*waveform});
+    if (waveform) result.push_back({table, *waveform});
   };
   if (scene.flow && !is_zero(*scene.flow)) add("flow.waveform", scene.flow->waveform);
-  if (scene.electric && scene.electric->field != Triple{} && !has_averaged_field(scene)) {
-    add("electric.waveform", scene.electric->waveform);
+  if (scene.electric && scene.electric->field != Triple{}) {
+    std::optional<WaveformScene> waveform = scene.electric->waveform;
+    if (has_averaged_field(scene)) {
+      if (waveform->kind == WaveformKind::ac) waveform.reset();
+      if (waveform) waveform->kind = WaveformKind::pulse;
+    }
+    add("electric.waveform", waveform);
   }
   if (const auto& pump = scene.membrane.pump; pump && pump->current != 0.0) {
     add("membrane.pump.waveform", pump->waveform);
@@ -46,6 +52,12 @@ double fewest_steps(const WaveformScene& waveform, double end) {
       return static_cast<double>(std::ranges::upper_bound(waveform.times, time) - waveform.times.begin());
     });
   }
+  const double in_bursts =
+      waveform.kind != WaveformKind::burst
+          ? 0.0
+          : fewest_steps_a_period * waveform.frequency *
+                std::clamp(std::min(waveform.start + waveform.duration, end) - std::max(waveform.start, 0.0), 0.0,
+                           waveform.duration);
   // Pulses that have begun, and those that have ended.
   const bool repeats = waveform.kind == WaveformKind::pulse_train;
   const auto since = [&](double first) {
@@ -53,7 +65,7 @@ double fewest_steps(const WaveformScene& waveform, double end) {
       return repeats ? std::max(0.0, std::floor((time - first) / period) + 1.0) : double(first <= time);
     });
   };
-  return since(waveform.start) + since(waveform.start + waveform.duration);
+  return in_bursts + since(waveform.start) + since(waveform.start + waveform.duration);
 }
 
 }  // namespace vehd

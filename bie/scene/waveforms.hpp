@@ -19,12 +19,11 @@ Waveform waveform_of(const WaveformScene& waveform);
 /// A waveform that the steps of a run have to follow.
 struct ActingWaveform {
   std::string_view table;  ///< of its keys
-  const WaveformScene* waveform;
+  WaveformScene waveform;
 };
 
-/// Those of a scene of one vesicle. A field, flow or pump that is 0 has none, and neither has a field of which only the
-/// mean force counts.
-/// @param scene  outlives the result
+/// Those of a scene of one vesicle. A field, flow or pump that is 0 has none. Of a field of which only the mean force
+/// counts it is that of the amplitude: none, or a pulse as long as a burst.
 std::vector<ActingWaveform> acting_waveforms(const Scene& scene);
 
 /// Steps that a run takes at least until that time because of the waveform, by arithmetic: fewest_steps_a_period a

@@ -41,6 +41,22 @@ BOOST_AUTO_TEST_CASE(pulse_jumps_where_it_says) {
   BOOST_TEST(w.is_quiet(1.5));
 }
 
+BOOST_AUTO_TEST_CASE(burst_alternates_while_it_lasts) {
+  const Waveform burst = Waveform::burst(2.0, 0.5, 0.3, 1.0, 4.0), always = Waveform::alternating(2.0, 0.5, 0.3);
+  for (const double time : {1.1, 2.3, 4.9}) BOOST_TEST(burst.at(time) == always.at(time));
+  BOOST_TEST(burst.at(1.0, Limit::before) == 0.0);
+  BOOST_TEST(burst.at(1.0, Limit::after) == always.at(1.0));
+  BOOST_TEST(burst.at(5.0, Limit::before) == always.at(5.0));
+  BOOST_TEST(burst.at(5.0, Limit::after) == 0.0);
+  BOOST_TEST(burst.next_discontinuity(0.0).value() == 1.0);
+  BOOST_TEST(burst.next_discontinuity(1.0).value() == 5.0);
+  BOOST_TEST(!burst.next_discontinuity(5.0).has_value());
+  BOOST_TEST(burst.is_quiet(0.0));
+  BOOST_TEST(burst.is_quiet(5.0));
+  // Zero here and at its end, and not between.
+  BOOST_TEST(!Waveform::burst(1.0, 0.5, -std::numbers::pi / 2.0, 0.0, 4.0).is_quiet(0.0));
+}
+
 BOOST_AUTO_TEST_CASE(train_repeats_the_pulse) {
   const Waveform w = Waveform::pulse_train(1.0, 0.2, 0.1, 0.3);
   for (int k = 0; k < 50; ++k) {

@@ -4,8 +4,12 @@
 #include <optional>
 #include <vector>
 
+#include "bie/files/run_reader.hpp"
+#include "bie/runs/history.hpp"
 #include "bie/runs/run_loop.hpp"
 #include "bie/scene/reader.hpp"
+#include "bie/stepping/time/time_rule.hpp"
+#include "bie/support/interruption.hpp"
 #include "tests/support/files.hpp"
 
 BOOST_AUTO_TEST_SUITE(going_on)
@@ -120,6 +124,42 @@ BOOST_AUTO_TEST_CASE(the_end_of_a_session_brings_the_checkpoint_up_to_date) {
   run.end({.completed = false, .reason = "a signal"});
   BOOST_TEST(directory.checkpoint().n_rows == 4);
   BOOST_TEST(directory.checkpoint().state.step == 3);
+}
+
+// What is left would change the shape by less than the tolerance.
+BOOST_AUTO_TEST_CASE(a_run_until_rest_ends_where_its_shape_does) {
+  vehd::Scene scene = relaxing();
+  scene.numerics.tolerance = 1e-3;
+  scene.numerics.time_order = vehd::highest_time_order;
+  scene.numerics.dt.reset();
+  scene.numerics.end_time = 40.0;
+  scene.output = {};
+  vehd::Interruption interruption;
+  const Directory whole, rested;
+  BOOST_TEST(vehd::simulate({scene, whole.paths, {}}, interruption).completed);
+  scene.numerics.until = vehd::RunsUntil::rest;
+  BOOST_TEST(vehd::simulate({scene, rested.paths, {}}, interruption).completed);
+  const vehd::HistoryTable all(whole.paths.history()), until(rested.paths.history());
+  const double end = until.column("time").back();
+  BOOST_TEST(end < 20.0);
+  BOOST_TEST(until.column("shape_rate").back() * (40.0 - end) < 1e-3);
+  BOOST_TEST(std::abs(until.column("extent_z").back() / all.column("extent_z").back() - 1.0) < 2e-3);
+  // The last state is a snapshot, and a continued run ends at once.
+  BOOST_TEST(vehd::RunReader(rested.paths.snapshots()).times().back() == end);
+  vehd::RecordedRun run({scene, rested.paths, rested.checkpoint()});
+  run.start();
+  BOOST_TEST(run.simulation().at_end());
+}
+
+BOOST_AUTO_TEST_CASE(a_run_until_rest_waits_for_its_waveforms) {
+  vehd::Scene scene = switched();
+  scene.shape.axes = {1.0, 1.0, 1.0};
+  scene.membrane.inextensible = false;
+  scene.numerics.until = vehd::RunsUntil::rest;
+  vehd::Interruption interruption;
+  const Directory folder;
+  BOOST_TEST(vehd::simulate({scene, folder.paths, {}}, interruption).completed);
+  BOOST_TEST(vehd::HistoryTable(folder.paths.history()).column("time").back() >= 1.0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -35,6 +35,17 @@ BOOST_AUTO_TEST_CASE(the_model_has_the_frequency_and_no_waveform) {
   BOOST_TEST((parsed(vehd::effective_scene(scene)) == scene));
 }
 
+BOOST_AUTO_TEST_CASE(a_burst_is_averaged_while_it_lasts) {
+  std::string text = scene_with("", "average = true\nstart = 0.25\nduration = 0.5\n");
+  text.replace(text.find("\"ac\""), 4, "\"burst\"");
+  const vehd::Scene scene = parsed(text);
+  const vehd::Model model = vehd::model_of(scene);
+  BOOST_TEST(*model.electric->averaged_frequency == 50.0);
+  BOOST_TEST((model.electric->waveform == vehd::Waveform::pulse(1.0, 0.25, 0.5)));
+  BOOST_TEST(vehd::step_control_of(scene).largest == 0.1);
+  BOOST_TEST((parsed(vehd::effective_scene(scene)) == scene));
+}
+
 BOOST_AUTO_TEST_CASE(a_field_that_is_followed_in_time_is_none) {
   const vehd::Model model = vehd::model_of(parsed(with_appended(
       "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\n[electric.waveform]\nkind = \"ac\"\n"
@@ -50,7 +61,7 @@ BOOST_AUTO_TEST_CASE(what_has_no_effect_is_refused) {
                             "\"displacement_current\""));
   BOOST_TEST(is_refused_for(with_appended("[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\n"
                                           "[electric.waveform]\nkind = \"pulse\"\nduration = 1\naverage = true\n"),
-                            "belongs to kind \"ac\""));
+                            "belongs to kinds \"ac\", \"burst\""));
 }
 
 BOOST_AUTO_TEST_CASE(several_vesicles_have_displacement_currents_of_all_or_of_none) {

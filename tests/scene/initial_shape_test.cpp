@@ -119,6 +119,26 @@ BOOST_AUTO_TEST_CASE(families_have_the_reduced_volume_and_the_area_of_the_unit_s
   }
 }
 
+// Δ = A/a_V² − 4π; an ellipsoid remains one, a radius keeps its modes.
+BOOST_AUTO_TEST_CASE(shapes_are_moved_to_a_reduced_volume_or_excess_area) {
+  for (const double volume : {0.8, 0.95, 0.999}) {
+    for (const char* shape :
+         {"kind='ellipsoid'\naxes=[1,1.2,1.5]", "kind='radial'\nmodes=[{n=2,m=0,a=0.3},{n=3,m=2,a=0.1}]"}) {
+      const double excess = 4.0 * std::numbers::pi * (std::pow(volume, -2.0 / 3.0) - 1.0);
+      const Matrix position = position_of(fmt::format("{}\nreduced_volume={}", shape, volume));
+      BOOST_TEST(reduced_volume_of(vehd::size_of(position)) == volume, boost::test_tools::tolerance(1e-11));
+      const Matrix same = position_of(fmt::format("{}\nexcess_area={}", shape, excess));
+      BOOST_TEST((position - same).norm() < 1e-9);
+    }
+  }
+  const Matrix ellipsoid = position_of("kind='ellipsoid'\naxes=[1,1.2,1.5]\nreduced_volume=0.9");
+  BOOST_TEST(ellipsoid.bottomRows(ellipsoid.rows() - 4).norm() < 1e-14);
+  BOOST_TEST((position_of("kind='ellipsoid'\naxes=[1,1,2]\nexcess_area=0") -
+              position_of("kind='ellipsoid'\naxes=[1,1,1]\narea=" +
+                          fmt::format("{}", vehd::size_of(position_of("kind='ellipsoid'\naxes=[1,1,2]")).area)))
+                 .norm() < 1e-12);
+}
+
 BOOST_AUTO_TEST_CASE(prolate_of_reduced_volume_0_9_has_the_known_aspect) {
   const Matrix position = position_of("kind='prolate'\nreduced_volume=0.9");
   const double aspect = position(vehd::coefficient_index(1, 0), 2) / position(vehd::coefficient_index(1, 1), 0);

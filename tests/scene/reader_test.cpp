@@ -113,9 +113,26 @@ BOOST_AUTO_TEST_CASE(missing_parts) {
 BOOST_AUTO_TEST_CASE(key_of_another_kind) {
   BOOST_TEST(message_with("[flow]\nkind='shear'\nrate=1\ngradient=[[0,0,1],[0,0,0],[0,0,0]]\n") ==
              "scene.toml:11: key \"gradient\" in [flow] belongs to kind \"gradient\", not to \"shear\"");
-  BOOST_TEST(message_of("[shape]\nkind='ellipsoid'\naxes=[1,1,2]\nreduced_volume=0.9\n") ==
+  BOOST_TEST(message_of("[shape]\nkind='file'\npath='run.h5'\nreduced_volume=0.9\n") ==
              "scene.toml:4: key \"reduced_volume\" in [shape] belongs to kinds \"prolate\", \"oblate\", \"biconcave\", "
-             "\"stomatocyte\", not to \"ellipsoid\"");
+             "\"stomatocyte\", \"ellipsoid\", \"radial\", not to \"file\"");
+}
+
+BOOST_AUTO_TEST_CASE(excess_area_stands_for_a_reduced_volume) {
+  const auto message = [](const std::string& shape) {
+    return message_of("[shape]\n" + shape + "[numerics]\ndt=1\nend_time=1\n");
+  };
+  BOOST_TEST(message("kind='prolate'\nexcess_area=0.1\n") == "");
+  BOOST_TEST(message("kind='prolate'\nexcess_area=0.1\nreduced_volume=0.9\n") ==
+             "scene.toml:3: \"excess_area\" in [shape] together with \"reduced_volume\"; accepted: one of them");
+  BOOST_TEST(
+      message("kind='stomatocyte'\nexcess_area=0.1\n") ==
+      "scene.toml:3: \"excess_area\" in [shape] is 0.1, a reduced volume of 0.988; accepted: a reduced volume of a "
+      "number 0.1 ... 0.65");
+  BOOST_TEST(
+      message("kind='ellipsoid'\naxes=[1,1,1]\nexcess_area=0.1\n") ==
+      "scene.toml:2: the shape in [shape] does not reach the reduced volume 0.9882, moved towards a sphere or away "
+      "from it; accepted: another volume or shape");
 }
 
 BOOST_AUTO_TEST_CASE(unknown_key_names_all_tables_that_have_it) {

@@ -148,4 +148,21 @@ BOOST_AUTO_TEST_CASE(is_called_in_messages_what_the_file_calls_it) {
              "scene.toml:7: unknown key \"degre\" in [numerics]; did you mean \"degree\"?");
 }
 
+// By the name of the file or by the number.
+BOOST_AUTO_TEST_CASE(are_for_one_of_several_vesicles) {
+  const std::string two = with_appended(
+      "[membrane]\nbending_modulus = 1\n[[vesicle]]\nname = \"a.b\"\n[[vesicle]]\nshape.centre = [5, 0, 0]\n");
+  const vehd::Scene scene = with({"vesicle.a.b.membrane.bending_modulus=3", "vesicle.1.shape.centre=[6, 0, 0]"}, two);
+  BOOST_TEST(*scene.vesicles[0].membrane.bending_modulus == 3.0);
+  BOOST_TEST(*scene.vesicles[1].membrane.bending_modulus == 1.0);
+  BOOST_TEST(scene.vesicles[1].shape.centre[0] == 6.0);
+  BOOST_TEST(problem_of({"vesicle.c.fluid.viscosity_ratio=2"}, two) ==
+             "--set vesicle.c.fluid.viscosity_ratio=2: \"vesicle.c.fluid.viscosity_ratio\" is no key of a vesicle; "
+             "accepted: vesicle.NAME.table.key, NAME of a.b, 1");
+  BOOST_TEST(
+      problem_of({"vesicle.1.fluid.viscosity=2"}, two)
+          .starts_with("--set vesicle.1.fluid.viscosity=2: \"viscosity\" in [vesicle.fluid] is the same for all"));
+  BOOST_TEST(problem_of({"vesicle.0.fluid.viscosity_ratio=2"}).ends_with("in a scene with tables [[vesicle]]"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

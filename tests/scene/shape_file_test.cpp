@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(a_time_between_snapshots_is_refused_however_small_it_is) {
   const std::string units = units_text({1e-6, 1.0, 1e-3, 1.0});
   BOOST_TEST(run.message(run.scene(units, "time = \"2 ns\"\n", "")) == "");
   BOOST_TEST(run.message(run.scene(units, "time = \"2.4 ns\"\n", "")) ==
-             "scene.toml:9: \"time\" in [shape] is 2.4e-09, at which FILE has no snapshot; the nearest is at 2e-09");
+             "scene.toml:9: \"time\" in [shape] is 2.4 ns, at which FILE has no snapshot; the nearest is at 2 ns");
 }
 
 BOOST_AUTO_TEST_CASE(units_on_one_side_alone_are_refused_where_they_matter) {

@@ -87,9 +87,12 @@ BOOST_FIXTURE_TEST_CASE(values_and_ranges_may_have_units, SweepFolder) {
       read("scene = \"base.toml\"\n[vary]\n\"numerics.end_time\" = {from = \"1 ms\", to = \"3 ms\", count = 3}\n");
   BOOST_TEST(shown_values(sweep.keys[0]) == (Texts{"1.0 ms", "2.0 ms", "3.0 ms"}), boost::test_tools::per_element());
   BOOST_TEST(sweep.keys[0].values[1].toml == "\"2.0 ms\"");
+  const auto mixed =
+      read("scene = \"base.toml\"\n[vary]\n\"numerics.end_time\" = {from = \"1 ms\", to = \"3 s\", count = 2}\n");
+  BOOST_TEST(shown_values(mixed.keys[0]) == (Texts{"1.0 ms", "3000.0 ms"}), boost::test_tools::per_element());
   BOOST_TEST(
-      refusal("scene = \"base.toml\"\n[vary]\n\"numerics.end_time\" = {from = \"1 ms\", to = \"3 s\", count = 3}\n")
-          .starts_with(":3: \"numerics.end_time\" in [vary] goes from a value in \"ms\" to one in \"s\""));
+      refusal("scene = \"base.toml\"\n[vary]\n\"numerics.end_time\" = {from = \"1 ms\", to = \"3 V\", count = 3}\n")
+          .starts_with(":3: \"numerics.end_time\" in [vary] goes from a value in \"ms\" to one in \"V\""));
 }
 
 BOOST_FIXTURE_TEST_CASE(mistakes_are_said_with_line_and_nearest_name, SweepFolder) {
@@ -125,6 +128,17 @@ BOOST_FIXTURE_TEST_CASE(mistakes_are_said_with_line_and_nearest_name, SweepFolde
              ":1: \"mode\" is the text 'gird'; accepted: \"grid\", \"zip\"");
   BOOST_TEST(refusal(start + "\"numerics.dt\" = {from = 0.1, to = 1.0, count = 1000000000}\n").find("count") !=
              std::string::npos);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_key_of_one_vesicle_is_varied_by_its_name, SweepFolder) {
+  write_text(directory / "base.toml",
+             quick_scene() + "[[vesicle]]\nname = \"soft\"\n[[vesicle]]\nname = \"stiff\"\nshape.centre = [5, 0, 0]\n");
+  const auto sweep = read(
+      "scene = \"base.toml\"\n[vary]\n\"vesicle.stiff.membrane.bending_modulus\" = {from = 1, to = 2, count = 2}\n");
+  BOOST_TEST(shown_values(sweep.keys[0]) == (Texts{"1.0", "2.0"}), boost::test_tools::per_element());
+  BOOST_TEST(sweep.keys[0].name == "vesicle.stiff.membrane.bending_modulus");
+  BOOST_TEST(refusal("scene = \"base.toml\"\n[vary]\n\"vesicle.stif.membrane.bending_modulus\" = {values = [1]}\n")
+                 .find("is no \"table.key\" of a scene") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -46,6 +46,14 @@ BOOST_AUTO_TEST_CASE(steps_of_a_table_are_its_times) {
   BOOST_TEST(walked(table, 2.0) == 3);
 }
 
+BOOST_AUTO_TEST_CASE(steps_of_a_burst_are_those_of_its_periods_and_both_ends) {
+  vehd::WaveformScene burst = waveform(vehd::WaveformKind::burst, 0.5, 2.0, 0.0);
+  burst.frequency = 3.0;
+  BOOST_TEST(vehd::fewest_steps(burst, 4.0) == 6.0 * vehd::fewest_steps_a_period + 2.0);
+  BOOST_TEST(vehd::fewest_steps(burst, 1.5) == 3.0 * vehd::fewest_steps_a_period + 1.0);
+  BOOST_TEST(vehd::fewest_steps(burst, 0.4) == 0.0);
+}
+
 BOOST_AUTO_TEST_CASE(steps_of_what_alternates_and_of_what_does_not) {
   vehd::WaveformScene alternating = waveform(vehd::WaveformKind::ac, 0.0, 0.0, 0.0);
   alternating.frequency = 3.0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bie/files/run_reader.hpp"
+#include "bie/scene/output_units.hpp"
 #include "bie/scene/read/reading_steps.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/shapes/initial_shape.hpp"
@@ -59,10 +60,14 @@ class SceneChecks {
     file_.refuse_key(key.substr(0, dot), key.substr(dot + 1), "{}", fmt::format(problem, called, arguments...));
   }
 
+  [[nodiscard]] std::string time_text(double time) const { return quantity_text(scene_.units, time, "time"); }
+
   void check_steps() const {
     const NumericsScene& n = scene_.numerics;
     refuse_if(!n.dt && !n.tolerance, "numerics.dt",
               "missing key \"dt\" in [numerics] (largest time step); accepted: > 0, or a \"tolerance\"");
+    refuse_if(n.until == RunsUntil::rest && !scene_.membrane.mobile, "numerics.until",
+              "{} is rest, where a frozen shape always is; accepted: end_time while \"mobile\" in [membrane] is false");
     refuse_if(n.tolerance && n.time_order < 2, "numerics.time_order",
               "{} is 1, which has no error estimate; accepted with a tolerance: 2 to 5");
   }
@@ -73,6 +78,14 @@ class SceneChecks {
     const AxisAngle turn = shape.rotation.value_or(AxisAngle{1.0});
     refuse_if(turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0, "shape.rotation",
               "{} has the axis 0, 0, 0; accepted: an axis that is not zero");
+    check_radial(shape);
+    refuse_if(!has_reduced_volume(scene_), "shape.kind",
+              "the shape in [shape] does not reach the reduced volume {1:.4g}, moved towards a sphere or away from it; "
+              "accepted: another volume or shape",
+              shape.reduced_volume.value_or(1.0));
+  }
+
+  void check_radial(const ShapeScene& shape) const {
     if (shape.kind != ShapeKind::radial) return;
     // The effective scene spells out every default.
     refuse_if(!shape.amplitude && shape.exponent != ShapeScene{}.exponent, "shape.exponent",
@@ -141,7 +154,8 @@ class SceneChecks {
     if (!waveform) return;
     if (waveform->kind == WaveformKind::pulse_train) {
       refuse_if(waveform->period <= waveform->duration, table + ".period",
-                "{} is {:g}; accepted: more than the duration {:g}", waveform->period, waveform->duration);
+                "{} is {}; accepted: more than the duration {}", time_text(waveform->period),
+                time_text(waveform->duration));
     }
     if (waveform->kind != WaveformKind::table) return;
     const auto& times = waveform->times;
@@ -152,13 +166,13 @@ class SceneChecks {
               times.size());
     const auto fall = std::ranges::is_sorted_until(times);
     if (fall != times.end()) {
-      file_.refuse_key(table, "times", "the table of [{}] falls to the time {:g}; accepted: ascending times", table,
-                       *fall);
+      file_.refuse_key(table, "times", "the table of [{}] falls to the time {}; accepted: ascending times", table,
+                       time_text(*fall));
     }
     for (std::size_t i = 2; i < times.size(); ++i) {
       refuse_if(times[i] == times[i - 2], table + ".times",
-                "the table of [{1}] has the time {2:g} three times; accepted: twice, which makes a jump", table,
-                times[i]);
+                "the table of [{1}] has the time {2} three times; accepted: twice, which makes a jump", table,
+                time_text(times[i]));
     }
   }
 
@@ -166,8 +180,8 @@ class SceneChecks {
   void check_periods() const {
     if (!scene_.numerics.dt) return;
     for (const ActingWaveform& acting : acting_waveforms(scene_)) {
-      if (acting.waveform->kind != WaveformKind::ac) continue;
-      const double steps = 1.0 / (acting.waveform->frequency * *scene_.numerics.dt);
+      if (!alternates(acting.waveform)) continue;
+      const double steps = 1.0 / (acting.waveform.frequency * *scene_.numerics.dt);
       refuse_if(steps < fewest_fixed_steps_a_period, fmt::format("{}.frequency", acting.table),
                 "\"dt\" in [numerics] takes {1:.3g} steps a period of [{2}]; accepted: at least {3:g}", steps,
                 acting.table, fewest_fixed_steps_a_period);
@@ -180,9 +194,9 @@ class SceneChecks {
     std::vector<std::pair<double, std::string>> demands;
     if (numerics.dt) demands.emplace_back(numerics.end_time / *numerics.dt, "numerics.dt");
     for (const ActingWaveform& acting : acting_waveforms(scene_)) {
-      const WaveformKind kind = acting.waveform->kind;
-      const char* key = kind == WaveformKind::ac ? "frequency" : kind == WaveformKind::pulse_train ? "period" : "kind";
-      demands.emplace_back(fewest_steps(*acting.waveform, numerics.end_time), fmt::format("{}.{}", acting.table, key));
+      const bool repeats = acting.waveform.kind == WaveformKind::pulse_train;
+      const char* key = alternates(acting.waveform) ? "frequency" : repeats ? "period" : "kind";
+      demands.emplace_back(fewest_steps(acting.waveform, numerics.end_time), fmt::format("{}.{}", acting.table, key));
     }
     double steps = 0.0;
     for (const auto& [count, key] : demands) steps += count;
@@ -196,8 +210,8 @@ class SceneChecks {
     const double end = scene_.numerics.end_time;
     for (const OutputWindow& window : output.windows) {
       refuse_if(!(window.every > 0.0 && window.to > window.from), "output.window",
-                "{} goes from {:g} to {:g} every {:g}; accepted: a later \"to\" and an \"every\" > 0", window.from,
-                window.to, window.every);
+                "{} goes from {} to {} every {}; accepted: a later \"to\" and an \"every\" > 0", time_text(window.from),
+                time_text(window.to), time_text(window.every));
     }
     require_few_steps();
     double count = 0.0;
@@ -215,7 +229,8 @@ class SceneChecks {
     add("output.times", static_cast<double>(output.times.size()));
     const auto fall = std::ranges::is_sorted_until(output.times);
     if (fall != output.times.end()) {
-      file_.refuse_key("output", "times", "\"times\" in [output] falls to {:g}; accepted: ascending times", *fall);
+      file_.refuse_key("output", "times", "\"times\" in [output] falls to {}; accepted: ascending times",
+                       time_text(*fall));
     }
     refuse_if(output.units == ResultUnits::si && !scene_.units, "output.units",
               "{} is \"si\", but the scene has no table [units]");
@@ -307,8 +322,8 @@ class SceneChecks {
       require_scale(units, "time", &UnitsScene::time, "shape.time", "no \"time\", for the last snapshot");
       const double factor = *conversion(units, scene_.units, &UnitsScene::time);
       const double time = *shape.time / factor;
-      refuse_if(!run.find(time), "shape.time", "{} is {:g}, at which {} has no snapshot; the nearest is at {:g}",
-                *shape.time, shape.path, run.times()[run.nearest(time)] * factor);
+      refuse_if(!run.find(time), "shape.time", "{} is {}, at which {} has no snapshot; the nearest is at {}",
+                time_text(*shape.time), shape.path, time_text(run.times()[run.nearest(time)] * factor));
     }
     if (!scene_.electric || has_averaged_field(scene_) || has_relaxing_charge(scene_)) return;
     const bool has_potential = start_snapshot(run, scene_).has_field("Vm");
@@ -369,8 +384,8 @@ class SceneChecks {
               "[poration] with a steady \"initial_Vm\" in [electric], under which a membrane would porate at once; "
               "accepted: zero or file");
     refuse_if(poration.model == PorationModel::porosity && poration.resealing_time <= poration.poration_time,
-              "poration.resealing_time", "{} is {:g}; accepted: more than the \"poration_time\" {:g}",
-              poration.resealing_time, poration.poration_time);
+              "poration.resealing_time", "{} is {}; accepted: more than the \"poration_time\" {}",
+              time_text(poration.resealing_time), time_text(poration.poration_time));
     refuse_if(poration.model == PorationModel::pores && !poration.pore_conductivity &&
                   (electric.conductivity_in == 0.0 || electric.conductivity_out == 0.0),
               "poration.model",

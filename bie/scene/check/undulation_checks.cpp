@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "bie/physics/effects/undulations.hpp"
+#include "bie/scene/output_units.hpp"
 #include "bie/scene/read/reading_steps.hpp"
 #include "bie/scene/shapes/initial_shape.hpp"
 #include "bie/scene/shapes/placement.hpp"
@@ -38,8 +39,9 @@ void check_undulations(const Scene& scene, const TomlFile& file) {
   const double buckling = AreaLaw(found).least_tension();
   found.rest_area = 0.0;
   refuse_if(!(with_rest_area(found, area).rest_area > 0.0), "reference_tension",
-            fmt::format("is {:.3g}, but a membrane of this area buckles at {:.3g}; accepted: more",
-                        *m.reference_tension, buckling));
+            fmt::format("is {}, but a membrane of this area buckles at {}; accepted: more",
+                        quantity_text(scene.units, *m.reference_tension, "force/length"),
+                        quantity_text(scene.units, buckling, "force/length")));
 }
 
 }  // namespace vehd

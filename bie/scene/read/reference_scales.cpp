@@ -73,7 +73,8 @@ std::optional<double> shortest_time(const SiValues& si, const UnitsScene& units,
   if (file.find("electric") != nullptr) {
     const double inside = si("electric", "conductivity_in"), outside = si("electric", "conductivity_out");
     consider(length * si("membrane", "capacitance") * (1.0 / inside + 0.5 / outside));
-    const double field = 1.0 / si("electric", "field");
+    const bool has_magnitude = file.table.at_path("electric.field_magnitude").node() != nullptr;
+    const double field = 1.0 / si("electric", has_magnitude ? "field_magnitude" : "field");
     consider(viscosity * (1.0 / si("electric", "permittivity")) * field * field);
   }
   consider(viscosity * length * length * length * (1.0 / si("membrane", "bending_modulus")));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "bie/scene/reader.hpp"
 #include "bie/scene/shapes/placement.hpp"
@@ -56,6 +58,38 @@ Matrix radial_position(const Scene& scene) {
       transform, [&](Index i, double theta, double phi) -> Vector3 { return radius(i) * direction(theta, phi); }));
 }
 
+/// x_s + t (x − x_s), x_s the sphere of the same area, with the t that gives the reduced volume. Its square root is
+/// nearly linear in t, √(1 − v) ∝ t.
+/// @return nullopt where there is none, or where a ray from the centre would meet the membrane twice
+std::optional<Matrix> with_reduced_volume(const Matrix& position, double reduced_volume) {
+  constexpr int most_passes = 40;
+  constexpr double rounding = 1e-12;
+  const int order = order_of(position.rows());
+  const double radius = std::sqrt(size_of(position).area / (4.0 * std::numbers::pi));
+  const Matrix sphere = ellipsoid_position({radius, radius, radius}, order);
+  const auto moved = [&](double t) -> Matrix { return sphere + t * (position - sphere); };
+  const auto depth = [&](double t) {
+    const ShapeSize size = size_of(moved(t));
+    const double v = 6.0 * std::sqrt(std::numbers::pi) * size.volume / std::pow(size.area, 1.5);
+    return std::sqrt(std::max(0.0, 1.0 - v));
+  };
+  const double wanted = std::sqrt(1.0 - reduced_volume);
+  double before = 0.0, t = wanted == 0.0 ? 0.0 : 1.0, depth_before = 0.0, now = depth(t);
+  for (int pass = 0; std::abs(now - wanted) > rounding; ++pass) {
+    const double next = t + (wanted - now) * (t - before) / (now - depth_before);
+    if (pass == most_passes || !std::isfinite(next)) return std::nullopt;
+    before = std::exchange(t, next);
+    depth_before = std::exchange(now, depth(t));
+  }
+  const SphereTransform transform = shape_transform(order);
+  const Vector outwards = transform.synthesize(moved(t)).cwiseProduct(transform.synthesize(sphere)).rowwise().sum();
+  return outwards.minCoeff() > 0.0 ? std::optional(without_rounding(moved(t))) : std::nullopt;
+}
+
+bool is_moved(const ShapeScene& shape) {
+  return shape.reduced_volume && (shape.kind == ShapeKind::ellipsoid || shape.kind == ShapeKind::radial);
+}
+
 /// From numbers of a shape file to those of the scene. They are taken as they are where neither has the scale;
 /// check_scene refuses a scene for which that is not enough.
 double factor_from(const RunReader& run, const Scene& scene, std::optional<double> UnitsScene::*scale) {
@@ -65,7 +99,7 @@ double factor_from(const RunReader& run, const Scene& scene, std::optional<doubl
 InitialMembrane unplaced_membrane(const Scene& scene) {
   const ShapeScene& shape = scene.shape;
   const int order = scene.numerics.order;
-  const double v = shape.reduced_volume;
+  const double v = shape.reduced_volume.value_or(1.0);
   if (shape.kind == ShapeKind::ellipsoid) return {ellipsoid_position(shape.axes, order), {}};
   if (shape.kind == ShapeKind::prolate) return {ellipsoid_position(prolate_axes(v), order), {}};
   if (shape.kind == ShapeKind::oblate) return {ellipsoid_position(oblate_axes(v), order), {}};
@@ -113,6 +147,9 @@ Vector cap_values(const PlaceScene& places, const SphereGrid& grid) {
 InitialMembrane initial_membrane(const Scene& scene) {
   const ShapeScene& shape = scene.shape;
   InitialMembrane membrane = unplaced_membrane(scene);
+  if (is_moved(shape)) {
+    if (auto moved = with_reduced_volume(membrane.position, *shape.reduced_volume)) membrane.position = *moved;
+  }
   membrane.position *= size_factor(shape, membrane.position);
   if (shape.rotation) {
     const Matrix3 rotation = rotation_matrix(*shape.rotation);
@@ -121,6 +158,11 @@ InitialMembrane initial_membrane(const Scene& scene) {
   }
   membrane.position = shifted(std::move(membrane.position), shape.centre);
   return membrane;
+}
+
+bool has_reduced_volume(const Scene& scene) {
+  return !is_moved(scene.shape) ||
+         with_reduced_volume(unplaced_membrane(scene).position, *scene.shape.reduced_volume).has_value();
 }
 
 RunSnapshot start_snapshot(const RunReader& run, const Scene& scene) {

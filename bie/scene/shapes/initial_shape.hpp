@@ -20,6 +20,10 @@ InitialMembrane initial_membrane(const Scene& scene);
 /// Its position alone.
 Matrix initial_position(const Scene& scene);
 
+/// Is its reduced volume that of the scene, or none given? An ellipsoid or radial shape is moved towards a sphere or
+/// away from it until it is, which may fail.
+bool has_reduced_volume(const Scene& scene);
+
 /// The snapshot with which a scene of [shape] kind "file" starts. @throws InputError if there is none
 RunSnapshot start_snapshot(const RunReader& run, const Scene& scene);
 
