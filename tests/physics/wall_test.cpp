@@ -39,13 +39,13 @@ BOOST_AUTO_TEST_CASE(the_nearest_point_of_an_ellipsoid_is_found_between_nodes) {
 
 // Beside an insulating wall, an electrode and a stress-free wall all layers are those of two mirrored membranes.
 BOOST_AUTO_TEST_CASE(layers_are_those_of_mirrored_membranes) {
-  constexpr int kOrder = 12;
+  constexpr int kOrder = 10;
   const Space space(kOrder);
   for (const WallField field : {WallField::insulating, WallField::electrode}) {
     const Wall wall = oblique_wall(WallFlow::stress_free, field);
     const MirrorImage mirror{wall};
     const double sign = field == WallField::electrode ? -1.0 : 1.0;
-    for (const double gap : {1e-3, 0.1, 1.0}) {
+    for (const double gap : {1e-3, 0.5}) {
       std::vector<Matrix> positions{at_gap(wall, asymmetric_shape(kOrder), gap)};
       positions.push_back(translated(positions[0], Vector3(3.0, 0.4, 1.5)));
       const std::size_t n = positions.size();
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(images_without_slip_obey_greens_identity) {
     const Interaction interaction = interaction_of(space, {position}, wall);
     const Matrix single = interaction.stokes_single({membrane.weighted(outside.traction)})[0];
     const Matrix jump = interaction.stokes_double({space.fine.analyze(outside.velocity)})[0];
-    BOOST_TEST(relative_difference(single, jump) < 1e-6, "gap " << gap);
+    BOOST_TEST(relative_difference(single, jump) < 1e-9, "gap " << gap);
   }
 }
 

@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(a_wall_that_mirrors_is_a_scene_of_mirrored_vesicles) {
     Model two = with_vesicles(model, 2);
     two.wall.reset();
     const double sign = field == WallField::electrode ? -1.0 : 1.0;
-    for (const Matrix& shape : {asymmetric_shape(12), shape_33(12)}) {
+    for (const Matrix& shape : {asymmetric_shape(10), shape_33(10)}) {
       const Matrix position = at_gap(wall, shape, 0.3);
       const std::vector<Matrix> one{position}, all{position, mirror.position(position)};
       State state = at_rest(one), both = at_rest(all);
