@@ -150,6 +150,18 @@ BOOST_AUTO_TEST_CASE(scenes_that_are_turned_and_moved_with_their_wall_are_the_sa
   BOOST_TEST(relative_difference(found.vesicles[0].velocity, velocity) < 1.5e-5);
 }
 
+// The axis is the normal of the wall through the vesicle, wherever that is.
+BOOST_AUTO_TEST_CASE(an_axis_is_found_off_the_origin) {
+  Model model = relaxation_model(0.1);
+  model.wall = Wall{{0.0, 0.5, 0.0}, Vector3::UnitX(), WallFlow::no_slip, WallField::none};
+  const State state = at_rest(translated(ellipsoid(8, {1.3, 1.0, 1.0}), {2.0, 1.0, -3.0}));
+  const Frame frame = find_frame(model, state);
+  const Model there = in_frame(frame, model);
+  const State moved = in_frame(frame, state);
+  BOOST_TEST(find_symmetry(there, moved).axisymmetric);
+  BOOST_TEST(std::abs(nearest_to_wall(*there.wall, moved.vesicles[0].position).distance - 0.7) < 1e-12);
+}
+
 // Above the same wall vesicles may be images of one another.
 BOOST_AUTO_TEST_CASE(exchanged_vesicles_above_a_wall_are_those_that_are_all_computed) {
   Model model = field_model();
