@@ -6,6 +6,7 @@
 
 #include "fem_check/krylov.hpp"
 #include "fem_check/rigid_part.hpp"
+#include "fem_check/slip_wall.hpp"
 #include "fem_check/stokes_cells.hpp"
 
 namespace vehd::fem_check {
@@ -95,13 +96,7 @@ struct StokesSystem::Implementation {
   WallFlow wall;
   std::shared_ptr<const dealii::DoFHandler<3>> pressure_dofs;
   Multigrid multigrid;
-  /// At a stress-free wall: of the component along its normal, which is fixed there.
-  struct Slip {
-    Multigrid normal_component;
-    Matrix3 frame;                // columns; the normal is the last one
-    std::vector<unsigned> nodes;  // on the wall, free, local numbers
-  };
-  std::unique_ptr<Slip> slip;
+  std::unique_ptr<SlipWall> slip;  // at a stress-free wall
   StokesCells cells;
   SurfaceTerms outer;
   std::vector<unsigned> tied;  // local numbers
@@ -120,7 +115,6 @@ struct StokesSystem::Implementation {
 
   Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities, WallFlow wall_flow);
   [[nodiscard]] ScalarForm diffusion_form() const { return {ratio, 1.0, 0.0, kOuterCoefficient}; }
-  void add_slip();
   /// Adds those of one vesicle.
   void add_rotations(const StokesSystem& system, int vesicle);
   void find_rotation_energies(const StokesSystem& system);
@@ -153,20 +147,8 @@ StokesSystem::Implementation::Implementation(std::shared_ptr<const Space> where,
     }
   }
   pressure_inverse.initialize(pressure_mass, pressure_data(cells));
-  if (space->mesh->wall() && wall == WallFlow::stress_free) add_slip();
-}
-
-void StokesSystem::Implementation::add_slip() {
-  const Vector3& normal = space->mesh->wall()->normal;
-  Matrix3 frame;
-  frame << normal.unitOrthogonal(), normal.cross(normal.unitOrthogonal()), normal;
-  slip.reset(new Slip{{*space, fixed_nodes(true), diffusion_form(), Multigrid::Finest::preconditions}, frame, {}});
-  Distributed velocity;
-  cells.initialize_velocity(velocity);
-  for (const DofIndex dof : nodes_on(space->wall, *space, multigrid.finest().handler())) {
-    if (velocity.locally_owned_elements().is_element(dof)) {
-      slip->nodes.push_back(velocity.get_partitioner()->global_to_local(dof));
-    }
+  if (space->mesh->wall() && wall == WallFlow::stress_free) {
+    slip = std::make_unique<SlipWall>(*space, multigrid, fixed_nodes(true), diffusion_form());
   }
 }
 
@@ -310,27 +292,13 @@ void StokesSystem::vmult(Blocks& to, const Blocks& from) const {
   for (unsigned d = 0; d < 3; ++d) {
     for (const unsigned dof : implementation_->tied) to.block(d).local_element(dof) = from.block(d).local_element(dof);
   }
-  if (!implementation_->slip) return;
-  // Functions whose component along the normal vanishes on the wall: nothing else is in the range or, in a solver,
-  // in the argument.
-  const Vector3 normal = implementation_->slip->frame.col(2);
-  for (const unsigned node : implementation_->slip->nodes) {
-    double along = 0.0;
-    for (unsigned d = 0; d < 3; ++d) along += normal[d] * to.block(d).local_element(node);
-    for (unsigned d = 0; d < 3; ++d) to.block(d).local_element(node) -= along * normal[d];
-  }
+  // A solver that starts with a flow along the wall leaves it nowhere: what the preconditioner gives is along it too.
+  if (implementation_->slip) implementation_->slip->project(to);
 }
 
 void StokesSystem::Implementation::precondition_velocity(Blocks& to, const Blocks& from) const {
   if (slip) {
-    Distributed residual(from.block(0)), component(from.block(0));
-    for (unsigned d = 0; d < 3; ++d) to.block(d) = 0.0;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      residual = 0.0;
-      for (unsigned d = 0; d < 3; ++d) residual.add(slip->frame(d, axis), from.block(d));
-      (axis == 2 ? slip->normal_component : multigrid).vmult(component, residual);
-      for (unsigned d = 0; d < 3; ++d) to.block(d).add(slip->frame(d, axis), component);
-    }
+    slip->precondition(to, from);
   } else {
     for (unsigned d = 0; d < 3; ++d) multigrid.vmult(to.block(d), from.block(d));
   }

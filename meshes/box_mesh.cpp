@@ -42,8 +42,8 @@ class BoxMeshBuilder {
         for (int axis = 0; axis < 3; ++axis) {
           for (const double sign : {-1.0, 1.0}) {
             // The face in which the boxes meet, or one meets the wall, has nothing beyond it.
-            if (shell.layer != BoxLayer::outer || !faces_plane(vesicle, axis, sign))
-              add_shell({shell.layer, vesicle, axis, sign}, shell);
+            if (shell.layer == BoxLayer::outer && faces_plane(vesicle, axis, sign)) continue;
+            add_shell({shell.layer, vesicle, axis, sign}, shell);
           }
         }
       }
@@ -138,22 +138,22 @@ class BoxMeshBuilder {
   std::map<Key, int> numbers_;
 };
 
-void require_two(bool holds, const char* what, double value, const char* accepted) {
+void require_option(bool holds, const char* what, double value, const char* accepted) {
   if (!holds) {
     throw std::invalid_argument(fmt::format("mesh of boxes: {} is {}, but must be {}", what, value, accepted));
   }
 }
 
 void require_options(const BoxMeshOptions& o) {
-  require_two(o.cells_per_edge >= 1, "cells_per_edge", o.cells_per_edge, "at least 1");
-  require_two(o.blend_layers >= 1, "blend_layers", o.blend_layers, "at least 1");
-  require_two(o.box_layers >= 1, "box_layers", o.box_layers, "at least 1");
-  require_two(o.outer_layers >= 1, "outer_layers", o.outer_layers, "at least 1");
-  require_two(o.box_growth > 0.0, "box_growth", o.box_growth, "positive");
-  require_two(o.outer_growth > 0.0, "outer_growth", o.outer_growth, "positive");
-  require_two(o.boxes.core_fraction > 0.0 && o.boxes.core_fraction < 1.0, "core_fraction", o.boxes.core_fraction,
-              "between 0 and 1");
-  require_two(o.boxes.margin > 0.0, "margin", o.boxes.margin, "positive");
+  require_option(o.cells_per_edge >= 1, "cells_per_edge", o.cells_per_edge, "at least 1");
+  require_option(o.blend_layers >= 1, "blend_layers", o.blend_layers, "at least 1");
+  require_option(o.box_layers >= 1, "box_layers", o.box_layers, "at least 1");
+  require_option(o.outer_layers >= 1, "outer_layers", o.outer_layers, "at least 1");
+  require_option(o.box_growth > 0.0, "box_growth", o.box_growth, "positive");
+  require_option(o.outer_growth > 0.0, "outer_growth", o.outer_growth, "positive");
+  require_option(o.boxes.core_fraction > 0.0 && o.boxes.core_fraction < 1.0, "core_fraction", o.boxes.core_fraction,
+                 "between 0 and 1");
+  require_option(o.boxes.margin > 0.0, "margin", o.boxes.margin, "positive");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
+#include "meshes/box_mesh.hpp"
 #include "tests/fem_check/cases.hpp"
 
 using namespace vehd::fem_check;
@@ -39,6 +40,25 @@ BOOST_AUTO_TEST_CASE(ranks_together_solve_the_flow_as_one_alone) {
   const SurfacePoints points = alone.quadrature_points(5);
   for (const double inside : {1.0, 4.0}) {
     problem.viscosity_in = inside;
+    const FlowTraces a = solve_flow(together, problem).on_surface(points);
+    const FlowTraces b = solve_flow(alone, problem).on_surface(points);
+    BOOST_TEST(relative_l2(points, a.velocity, b.velocity) < 1e-7);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(ranks_together_solve_the_flow_beside_a_wall_as_one_alone) {
+  FlowProblem problem;
+  problem.force = vectors_on_surface([](const Vector3& x, const Vector3& n) { return Vector3(x.z() * n); });
+  problem.viscosity_in = 0.5;
+  meshes::BoxMeshOptions options;
+  options.cells_per_edge = 2;
+  const Vector3 normal = Vector3(1.0, -2.0, 0.5).normalized();
+  const auto mesh =
+      std::make_shared<meshes::BoxMesh>(meshes::make_mesh_beside_wall(unit_sphere(), {-1.4 * normal, normal}, options));
+  const Discretisation together(mesh, 3), alone(mesh, 3, Ranks::each_alone);
+  const SurfacePoints points = alone.quadrature_points(5);
+  for (const WallFlow wall : {WallFlow::no_slip, WallFlow::stress_free}) {
+    problem.wall = wall;
     const FlowTraces a = solve_flow(together, problem).on_surface(points);
     const FlowTraces b = solve_flow(alone, problem).on_surface(points);
     BOOST_TEST(relative_l2(points, a.velocity, b.velocity) < 1e-7);

@@ -22,8 +22,7 @@ Discretisation discretise(const Shapes& shapes, const TwoMesh& level) {
   vehd::meshes::BoxMeshOptions options;
   options.cells_per_edge = level.cells_per_edge;
   options.boxes.outer_radius = level.outer_radius;
-  return {std::make_shared<vehd::meshes::BoxMesh>(vehd::meshes::make_two_vesicle_mesh(shapes, options)),
-          level.degree};
+  return {std::make_shared<vehd::meshes::BoxMesh>(vehd::meshes::make_two_vesicle_mesh(shapes, options)), level.degree};
 }
 
 Shapes two_spheres(double gap) {

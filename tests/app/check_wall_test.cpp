@@ -1,0 +1,87 @@
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/check_damages.hpp"
+#include "tests/app/finite_elements.hpp"
+
+// The finite elements are one process for each processor.
+BOOST_AUTO_TEST_SUITE(check_wall, *boost::unit_test::precondition(finite_elements_are_built) *
+                                      boost::unit_test::label("slow") * boost::unit_test::label("once"))
+
+namespace {
+
+const std::string vesicle_text =
+    "[shape]\nkind = 'radial'\nbase = 1.0\namplitude = 0.1\n"
+    "modes = [{n = 2, m = 0, a = 1.0}, {n = 3, m = 1, a = 0.5}, {n = 3, m = -2, a = -0.4}]\n"
+    "centre = [0.3, -0.2, 1.6]\n"
+    "[membrane]\nbending_modulus = 0.1\nspontaneous_curvature = 0.5\nconductance = 0.5\n";
+const std::string numerics_text = "[numerics]\norder = 10\ndt = 0.02\nend_time = 0.0\n";
+
+std::string heavy_text(const std::string& viscosity_ratio) {
+  return "[fluid]\nviscosity_ratio = " + viscosity_ratio +
+         "\ndensity_difference = 0.3\n[gravity]\nacceleration = [0.2, 0.1, -1.0]\n";
+}
+
+std::string electric_text(const std::string& field) {
+  return "[electric]\nfield = " + field +
+         "\nconductivity_in = 2.0\nconductivity_out = 1.0\npermittivity_ratio = 0.5\ninitial_Vm = 'steady'\n";
+}
+
+/// Checks a scene; every row has to agree.
+void require_agreement(const std::string& scene) {
+  const TemporaryDirectory directory;
+  write_text(directory / "scene.toml", scene);
+  const ProgramResult checked = run_vehd({"check", directory / "scene.toml", "-o", directory / "check", "--quick",
+                                          "--no-plot", "--json", directory / "result.json"});
+  BOOST_TEST_REQUIRE(checked.exit_code == 0, checked.output + checked.errors);
+  const nlohmann::json result = json_of(directory / "result.json");
+  for (const char* group : {"fields", "from_shape", "stored"}) {
+    for (const auto& [row, values] : result[group].items())
+      BOOST_TEST(values["verdict"] == "agree", group << ": " << row);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(every_row_agrees_above_a_coverslip_in_shear) {
+  require_agreement(vesicle_text + heavy_text("3.0") +
+                    "[wall]\nnormal = [0.0, 0.0, 1.0]\nflow = 'no-slip'\nfield = 'insulating'\n" +
+                    "[flow]\nkind = 'shear'\nrate = 0.8\n" + electric_text("[0.3, 0.5, 0.0]") + numerics_text);
+}
+
+BOOST_AUTO_TEST_CASE(every_row_agrees_below_a_free_surface_and_beside_an_electrode_at_any_angle) {
+  require_agreement(vesicle_text + heavy_text("0.3") +
+                    "[wall]\npoint = [0.0, 0.0, -0.2]\nnormal = [0.3, -0.2, 1.0]\nflow = 'stress-free'\n"
+                    "field = 'electrode'\n" +
+                    electric_text("[0.3, -0.2, 1.0]") + numerics_text);
+}
+
+BOOST_AUTO_TEST_CASE(wall_elsewhere_or_of_the_other_kind_is_noticed) {
+  const FinishedRun run(vesicle_text +
+                        "[wall]\nnormal = [0.0, 0.0, 1.0]\nflow = 'stress-free'\nfield = 'insulating'\n" +
+                        electric_text("[0.3, 0.5, 0.0]") + numerics_text);
+  check_and_damage(run, "0", {"q"}, {"q", "velocity"},
+                   {state_with(
+                        "wall further away", [](FrozenState& s) { s.model.wall->point.z() -= 0.2; }, "fields", "q"),
+                    state_with(
+                        "wall without slip", [](FrozenState& s) { s.model.wall->flow = vehd::WallFlow::no_slip; },
+                        "fields", "velocity")});
+}
+
+BOOST_AUTO_TEST_CASE(walls_that_the_elements_do_not_know_are_refused) {
+  const TemporaryDirectory directory;
+  const auto refused = [&](const std::string& scene, const std::string& message) {
+    write_text(directory / "scene.toml", scene);
+    const ProgramResult result = run_vehd({"check", directory / "scene.toml", "--quick"});
+    BOOST_TEST(result.exit_code == 1);
+    BOOST_TEST(result.errors.find(message) != std::string::npos, result.errors);
+  };
+  refused(vesicle_text + "[wall]\nnormal = [0.0, 0.0, 1.0]\nfield = 'insulating'\n" + electric_text("[0.3, 0.5, 0.0]") +
+              numerics_text,
+          "has a wall that does not touch the flow; vehd check accepts \"flow\" no-slip or stress-free in [wall]");
+  refused(vesicle_text + "[wall]\nnormal = [0.0, 0.0, 1.0]\nflow = 'no-slip'\n" + electric_text("[0.3, 0.5, 0.0]") +
+              numerics_text,
+          "has a wall that does not touch the field; vehd check accepts \"field\" insulating or electrode in [wall]");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
