@@ -13,6 +13,7 @@
 #include "bie/scene/read/reading_steps.hpp"
 #include "bie/scene/read/toml_values.hpp"
 #include "bie/scene/schema.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/stepping/time/time_rule.hpp"
@@ -288,6 +289,12 @@ void check_one(Scene& scene, const TomlFile& file, const std::filesystem::path& 
     scene.shape.path = std::filesystem::absolute(folder / scene.shape.path).lexically_normal().string();
   }
   check_scene(scene, file, is_heavy);
+  if (has_reduced_volume(scene)) return;
+  file.refuse_key(
+      "shape", "kind",
+      "the shape in [shape] does not reach the reduced volume {:.4g}, moved towards a sphere or away from it; "
+      "accepted: another volume or shape",
+      *scene.shape.reduced_volume);
 }
 
 }  // namespace

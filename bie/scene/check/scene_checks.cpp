@@ -78,14 +78,6 @@ class SceneChecks {
     const AxisAngle turn = shape.rotation.value_or(AxisAngle{1.0});
     refuse_if(turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0, "shape.rotation",
               "{} has the axis 0, 0, 0; accepted: an axis that is not zero");
-    check_radial(shape);
-    refuse_if(!has_reduced_volume(scene_), "shape.kind",
-              "the shape in [shape] does not reach the reduced volume {1:.4g}, moved towards a sphere or away from it; "
-              "accepted: another volume or shape",
-              shape.reduced_volume.value_or(1.0));
-  }
-
-  void check_radial(const ShapeScene& shape) const {
     if (shape.kind != ShapeKind::radial) return;
     // The effective scene spells out every default.
     refuse_if(!shape.amplitude && shape.exponent != ShapeScene{}.exponent, "shape.exponent",
