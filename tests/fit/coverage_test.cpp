@@ -137,7 +137,8 @@ BOOST_AUTO_TEST_CASE(shapes_over_frequency_for_bending_and_capacitance) {
                             Vector{{1.0, 1.0}});
 }
 
-// A field has stretched the vesicle: tension pulls it back in the first tenth of a second, bending in the seconds after.
+// A field has stretched the vesicle: tension pulls it back in the first tenth of a second, bending in the seconds
+// after.
 BOOST_AUTO_TEST_CASE(relaxation_with_undulations_for_bending_and_tension) {
   const std::string scene =
       "[units]\nlength = \"10 um\"\ntime = \"1 s\"\n"
