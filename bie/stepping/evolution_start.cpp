@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/charge_difference.hpp"
@@ -77,28 +76,9 @@ bool Evolution::raise_orders_for_fields() {
          });
 }
 
-/// Of a start that is compressed: what is cut off grows, and no later degree brings it back. @returns whether any rose
-bool Evolution::raise_orders_for_growth() {
-  if (start_.empty()) return false;
-  expect_growth(std::numeric_limits<double>::infinity());
-  std::vector<int> orders;
-  bool raised = false;
-  for (std::size_t a = 0; a < start_.size(); ++a) {
-    orders.push_back(order(a));
-    const Resolution found = resolution(state_, a);
-    if (resolves(found, a)) continue;
-    orders[a] = raised_order(found, a);
-    raised = true;
-  }
-  return raised &&
-         restart_at(with_images(setup_.symmetry.exchange, std::move(orders)), [](const Evaluation&) { return true; });
-}
-
 void Evolution::evaluate_start() {
   arrive(state_);
   while (raise_orders_for_fields()) {
-  }
-  while (raise_orders_for_growth()) {
   }
   start_.clear();
   if (state_.dt_next == 0.0) state_.dt_next = first_step(setup_, evaluation_, state_);

@@ -82,8 +82,6 @@ constexpr double most_after_rejection = 0.9;
 constexpr int most_tries_from_past = 2;
 /// Share of the tolerance that one step may leave by its estimate: those of about three steps add up. Measured.
 constexpr double step_share = 0.35;
-/// What a degree leaves out of a compressed membrane is expected to grow by this at most. Measured.
-constexpr double most_growth = 30.0;
 /// Share of the tolerance that what is found within a step may be wrong by. Measured.
 constexpr double moment_share = 0.25;
 /// From one derivative of a motion to the next, with the time over the step, no more than this is continued: what grows
