@@ -12,12 +12,13 @@
 
 #include "bie/comparison/local_forces.hpp"
 #include "bie/physics/charge_density.hpp"
+#include "bie/physics/effects/tension.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/physics/membrane_flow.hpp"
 #include "bie/physics/volume_fields.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
-#include "bie/stepping/solve/flow_system.hpp"
+#include "bie/stepping/solve/flow_equations.hpp"
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/composition.hpp"
@@ -163,9 +164,7 @@ class FrozenSolver {
     result.velocity_of_shape = fields(a).velocity;
     FlowParameters parameters = in_flow_[a].parameters;
     if (parameters.undulations) {
-      const SphereDerivatives v = membrane(a).fine.synthesize_first_derivatives(fields(a).velocity);
-      const Surface& s = membrane(a).surface;
-      result.dilation = s.quadrature.dot(surface_divergence(s, v)) / surface_area(s);
+      result.dilation = dilation(membrane(a), fields(a).velocity);
       parameters.undulations.reset();
     }
     result.tension_is_free = uniform_tension_is_free(parameters, membrane(a));

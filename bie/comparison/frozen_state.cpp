@@ -7,6 +7,7 @@
 #include "bie/comparison/stored_copies.hpp"
 #include "bie/files/snapshot_choice.hpp"
 #include "bie/geometry/surface.hpp"
+#include "bie/physics/effects/tension.hpp"
 #include "bie/physics/effects/undulations.hpp"
 #include "bie/runs/given_times.hpp"
 #include "bie/runs/run_files.hpp"
@@ -200,7 +201,7 @@ class VesicleOfSnapshot {
     const SphereTransform transform(order, make_grid(2 * order));
     const Surface surface = make_surface(transform, position);
     const double area = surface_area(surface);
-    undulations.reference_tension = surface.quadrature.dot(transform.synthesize(tension).col(0)) / area;
+    undulations.reference_tension = mean_tension(transform, surface, tension);
     undulations.rest_area = 0.0;
     return with_rest_area(undulations, area);
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "bie/support/types.hpp"
@@ -13,20 +15,27 @@ class StackedEntries {
   /// One more field, [n_rows x n_columns].
   /// @param entries  positions of those in the column-major field, ascending
   void add(Index n_rows, Index n_columns, std::vector<Index> entries) {
+    const Index first = size_;
     size_ += std::ssize(entries);
-    fields_.push_back({n_rows, n_columns, std::move(entries)});
+    fields_.push_back({n_rows, n_columns, first, std::move(entries)});
+  }
+  /// The same of a field whose entries can all differ from zero.
+  void add(Index n_rows, Index n_columns) {
+    std::vector<Index> all(static_cast<std::size_t>(n_rows * n_columns));
+    std::iota(all.begin(), all.end(), Index{0});
+    add(n_rows, n_columns, std::move(all));
   }
 
   [[nodiscard]] Index size() const { return size_; }
+  /// Row of the first entry of a field.
+  [[nodiscard]] Index first(std::size_t field) const { return fields_[field].first; }
 
   template <typename Field>
   [[nodiscard]] Vector stack(const std::vector<Field>& fields) const {
     Vector result(size_);
-    Index first = 0;
     for (std::size_t a = 0; a < fields_.size(); ++a) {
       const std::vector<Index>& entries = fields_[a].entries;
-      result.segment(first, std::ssize(entries)) = fields[a].reshaped()(entries);
-      first += std::ssize(entries);
+      result.segment(first(a), std::ssize(entries)) = fields[a].reshaped()(entries);
     }
     return result;
   }
@@ -35,11 +44,9 @@ class StackedEntries {
   template <typename Field>
   [[nodiscard]] std::vector<Field> fields(const Vector& stacked) const {
     std::vector<Field> result;
-    Index first = 0;
-    for (const auto& [n_rows, n_columns, entries] : fields_) {
+    for (const auto& [n_rows, n_columns, first, entries] : fields_) {
       result.emplace_back(Field::Zero(n_rows, n_columns)).reshaped()(entries) =
           stacked.segment(first, std::ssize(entries));
-      first += std::ssize(entries);
     }
     return result;
   }
@@ -47,18 +54,15 @@ class StackedEntries {
   /// A number of each field, at all of its entries.
   [[nodiscard]] Vector spread(const std::vector<double>& numbers) const {
     Vector result(size_);
-    Index first = 0;
     for (std::size_t a = 0; a < fields_.size(); ++a) {
-      const Index n = std::ssize(fields_[a].entries);
-      result.segment(first, n).setConstant(numbers[a]);
-      first += n;
+      result.segment(first(a), std::ssize(fields_[a].entries)).setConstant(numbers[a]);
     }
     return result;
   }
 
  private:
   struct Field {
-    Index n_rows, n_columns;
+    Index n_rows, n_columns, first;
     std::vector<Index> entries;
   };
   std::vector<Field> fields_;

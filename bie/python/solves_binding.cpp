@@ -11,7 +11,7 @@
 #include "bie/python/bindings.hpp"
 #include "bie/python/point_sources.hpp"
 #include "bie/python/surface_object.hpp"
-#include "bie/stepping/solve/flow_system.hpp"
+#include "bie/stepping/solve/flow_equations.hpp"
 #include "bie/stepping/solve/tension_solve.hpp"
 #include "bie/support/errors.hpp"
 

@@ -21,6 +21,16 @@ Vector weighted_divergence(const Membrane& membrane, const SphereDerivatives& ve
   return membrane.weighted(surface_divergence(membrane.surface, velocity));
 }
 
+double mean_tension(const SphereTransform& fine, const Surface& surface, const Vector& tension) {
+  return surface.quadrature.dot(fine.synthesize(tension).col(0)) / surface_area(surface);
+}
+
+double dilation(const Membrane& membrane, const Matrix& velocity) {
+  const Surface& s = membrane.surface;
+  const Vector divergence = surface_divergence(s, membrane.fine.synthesize_first_derivatives(velocity));
+  return s.quadrature.dot(divergence) / surface_area(s);
+}
+
 EffectRow tension_row() {
   return {kInextensibility,
           [](const Model& model, const VesicleModel& vesicle) -> MadeEffect {

@@ -20,6 +20,15 @@ Matrix tension_force(const Membrane& membrane, const Vector& tension);
 /// Source: paper Eqs. (1e), (27b)
 Vector weighted_divergence(const Membrane& membrane, const SphereDerivatives& velocity);
 
+/// ∫λ dA / ∫dA.
+/// @param fine     degree of λ ↔ points of the surface
+/// @param tension  coefficients
+double mean_tension(const SphereTransform& fine, const Surface& surface, const Vector& tension);
+
+/// The mean of ∇_γ·u over the area: its relative rate of change.
+/// @param velocity  coefficients, [n_coefficients x 3]
+double dilation(const Membrane& membrane, const Matrix& velocity);
+
 EffectRow tension_row();
 
 }  // namespace vehd

@@ -58,7 +58,7 @@ void solve_flow(const std::vector<VesicleTask>& tasks, const std::vector<Forcing
   std::vector<Matrix> weighted(tasks.size()), background;
   std::vector<bool> is_sphere;
   std::vector<Vector> start;
-  std::vector<RecycledSubspace> known;
+  std::vector<RecycledSubspace> recycled;
   for (const std::size_t a : own) weighted[a] = tasks[a].membrane.weighted(forcing[a].force);
   for (std::size_t a = 0; a < tasks.size(); ++a) {
     const VesicleTask& task = tasks[a];
@@ -66,17 +66,17 @@ void solve_flow(const std::vector<VesicleTask>& tasks, const std::vector<Forcing
     background.push_back(forcing[a].velocity);
     is_sphere.push_back(task.solution.is_sphere);
     start.push_back(task.state.tension);
-    const auto& recycled = task.state.recycled.tension;
-    known.push_back(recycled ? recycled->in(task.space.subspace().scalars(), 1) : RecycledSubspace{});
+    const auto& of_tension = task.state.recycled.tension;
+    recycled.push_back(of_tension ? of_tension->in(task.space.subspace().scalars(), 1) : RecycledSubspace{});
   }
   MembraneFlow flow(membranes, *solved.interaction);
   const SolvedTensions tensions = solve_tensions(membranes, is_sphere, flow, std::move(weighted), background, start,
-                                                 known, tasks.front().settings.flow_tolerance);
+                                                 recycled, tasks.front().settings.flow_tolerance);
   require_converged(tensions.report, "tensions, Eq. (27b)");
   solved.iterations_flow += tensions.report.iterations;
   for (std::size_t a = 0; a < tasks.size(); ++a) {
     if (!tasks[a].vesicle.inextensible) continue;
-    tasks[a].solution.recycled.tension = recycled_scalars(tasks[a].space.subspace().scalars(), tensions.learned[a]);
+    tasks[a].solution.recycled.tension = recycled_scalars(tasks[a].space.subspace().scalars(), tensions.recycled[a]);
   }
   for_each_member(own, [&](std::size_t a) {
     const VesicleTask& task = tasks[a];

@@ -7,7 +7,7 @@
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/evaluation/gather_solution.hpp"
 #include "bie/stepping/evaluation/membrane_velocities.hpp"
-#include "bie/stepping/solve/flow_system.hpp"
+#include "bie/stepping/solve/flow_equations.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/thresholds.hpp"

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "bie/physics/effects/bending.hpp"
 #include "bie/physics/effects/tension.hpp"
@@ -58,25 +59,22 @@ class FreeArea {
 
   /// The area that the mean tension so far asks for.
   [[nodiscard]] double wanted() const { return law_.area(tension_); }
-  void raise_tension(double increment) { tension_ += increment; }
 
   /// The uniform tension to add so that the area is what the tension then asks for.
   /// @param area      without it
   /// @param response  change of the area for a uniform tension of 1, negative
-  /// @param raised    mean tension for it
-  [[nodiscard]] double uniform_tension(double area, double response, double raised) const {
+  double raise_tension(double area, double response) {
     double tension = tension_;
     // Newton's method for an increasing concave function: from below it rises to the root.
     constexpr int most_iterations = 100;
     for (int i = 0; i < most_iterations; ++i) {
-      const double slope = response / raised;
-      const double residual = law_.area(tension) - area - slope * (tension - tension_);
-      const double next = tension - residual / (law_.slope(tension) - slope);
+      const double residual = law_.area(tension) - area - response * (tension - tension_);
+      const double next = tension - residual / (law_.slope(tension) - response);
       const double allowed = std::max(next, 0.5 * (tension + law_.least_tension()));
       if (std::abs(allowed - tension) <= 1e-14 * std::abs(allowed)) break;
       tension = allowed;
     }
-    return (tension - tension_) / raised;
+    return tension - std::exchange(tension_, tension);
   }
 
  private:
@@ -120,11 +118,12 @@ class Iteration {
   /// Moves the material points by the velocity so far. @throws ConvergenceError where that tears the membrane
   void move() {
     const Membrane& membrane = context_.membrane;
-    const VelocityField u = velocity_field(membrane, velocity_, bending());
+    const SphereDerivatives u =
+        bending() ? fine().synthesize_derivatives(velocity_) : fine().synthesize_first_derivatives(velocity_);
     if (bending()) {
-      rhs_.curvature = dt_ * curvature_increment(membrane, curvature_transform_, u.derivatives) - curvature_;
-      if (pass_ == 0) curvature_scale_ = std::max(rhs_.curvature.norm(), thresholds::curvature_floor * mean_curvature_);
-      errors_.curvature = rhs_.curvature.norm() / curvature_scale_;
+      rhs_.shape = dt_ * curvature_increment(membrane, curvature_transform_, u) - curvature_;
+      if (pass_ == 0) curvature_scale_ = std::max(rhs_.shape.norm(), thresholds::curvature_floor * mean_curvature_);
+      errors_.curvature = rhs_.shape.norm() / curvature_scale_;
     }
     motion_.material.position = start_.fields.position + dt_ * velocity_;
     after_ = measure(fine(), motion_.material.position);
@@ -138,7 +137,7 @@ class Iteration {
       }
       // What bending has not answered yet, a stiff membrane takes back in the next pass: until then the constraint is
       // the linear one of the start.
-      const Vector growth = dt_ * surface_divergence(membrane.surface, u.derivatives);
+      const Vector growth = dt_ * surface_divergence(membrane.surface, u);
       stretch = 1.0 + growth.array();
       after_.area = area_ + membrane.surface.quadrature.dot(growth);
       after_.volume = enclosed_volume(membrane.surface) + dt_ * flux();
@@ -180,7 +179,7 @@ class Iteration {
     if (inextensible()) {
       // The area as a whole answers for itself, free of what truncation does to the strain field.
       weighted_strain_[0] = errors_.area * wanted_area() / std::sqrt(4.0 * std::numbers::pi);
-      rhs_.divergence = -weighted_strain_ / dt_ - push * normal_divergence_;
+      rhs_.tension = -weighted_strain_ / dt_ - push * normal_divergence_;
     }
     // The norm of the solve weighs curvature and strain together, those of high degrees least. With a loose
     // tolerance the residual of one can hide behind the rounding of the other, that of the area elements.
@@ -189,17 +188,21 @@ class Iteration {
     const double sharpening =
         std::pow(thresholds::sharper_pass, std::max(0, stagnating_ - thresholds::stagnating_passes));
     const double tolerance = std::max(sharpening * pass_tolerance(excess()), thresholds::sharpest_pass);
-    FlowSystem::Solution increment = flow.solve(rhs_, {}, tolerance);
+    const FlowSystem::Solution increment = flow.solve({flow.equations().front().rows(rhs_)}, tolerance);
     iterations += increment.report.iterations;
     // What a pass leaves the next one answers for, as long as it gains.
     if (!increment.report.converged() && !(increment.report.residual < thresholds::stagnation_ratio)) {
       throw ConvergenceError(fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations",
                                          increment.report.residual, increment.report.iterations));
     }
-    if (free_area_) add_uniform_tension(flow, push, increment);
-    velocity_ += push * normal_ + increment.velocity;
-    if (bending()) curvature_ += increment.unknowns.curvature;
-    if (inextensible()) motion_.material.tension += increment.unknowns.tension;
+    const Matrix velocity = push * normal_ + increment.velocities.front();
+    add(1.0, velocity, increment.unknowns.front());
+    if (free_area_) {
+      const FlowSystem::Solution& uniform = flow.of_uniform_tension(thresholds::sharpest_pass);
+      const Matrix& response = uniform.velocities.front();
+      const double area = after_.area + arrival_area_ + dt_ * growth(velocity);
+      add(free_area_->raise_tension(area, dt_ * growth(response)), response, uniform.unknowns.front());
+    }
     ++pass_;
   }
 
@@ -214,26 +217,11 @@ class Iteration {
   [[nodiscard]] const SphereTransform& fine() const { return context_.membrane.fine; }
   [[nodiscard]] double wanted_area() const { return free_area_ ? free_area_->wanted() : context_.state.reference_area; }
   /// Rate of change of the area under a velocity.
-  [[nodiscard]] double growth(const Matrix& velocity) const {
-    return weighted_divergence(context_.membrane, fine().synthesize_first_derivatives(velocity))[0] *
-           std::sqrt(4.0 * std::numbers::pi);
-  }
-  [[nodiscard]] double mean(const Vector& tension) const {
-    return context_.membrane.surface.quadrature.dot(fine().synthesize(tension).col(0)) / area_;
-  }
-  /// The uniform tension under which the area is what the mean tension asks for.
-  void add_uniform_tension(FlowSystem& flow, double push, FlowSystem::Solution& increment) {
-    free_area_->raise_tension(mean(increment.unknowns.tension));
-    const FlowSystem::Solution& uniform = flow.of_uniform_tension(thresholds::sharpest_pass);
-    const double raised = mean(uniform.unknowns.tension);
-    const double area =
-        after_.area + arrival_area_ +
-        dt_ * (push * normal_divergence_[0] * std::sqrt(4.0 * std::numbers::pi) + growth(increment.velocity));
-    const double tension = free_area_->uniform_tension(area, dt_ * growth(uniform.velocity), raised);
-    free_area_->raise_tension(tension * raised);
-    increment.velocity += tension * uniform.velocity;
-    if (bending()) increment.unknowns.curvature += tension * uniform.unknowns.curvature;
-    increment.unknowns.tension += tension * uniform.unknowns.tension;
+  [[nodiscard]] double growth(const Matrix& velocity) const { return area_ * dilation(context_.membrane, velocity); }
+  void add(double factor, const Matrix& velocity, const FlowScalars& unknowns) {
+    velocity_ += factor * velocity;
+    if (bending()) curvature_ += factor * unknowns.shape;
+    if (inextensible()) motion_.material.tension += factor * unknowns.tension;
   }
   /// ∫u·n dA of the velocity so far.
   [[nodiscard]] double flux() const {
@@ -271,7 +259,7 @@ class Iteration {
   Measure after_;
   Vector strain_;
   Vector weighted_strain_;  // of what this step answers for
-  FlowRightHandSide rhs_;
+  FlowScalars rhs_;
   Errors errors_;
   // What arrival adds to area and volume, known from the last one.
   double arrival_area_ = 0.0;
@@ -284,7 +272,7 @@ class Iteration {
 
 Motion constrained_motion(const MotionContext& context, const MotionStart& start, double dt, FlowSystem& flow,
                           const Arrival& arrival, int& iterations) {
-  Iteration iteration(context, start, dt, flow.curvature_transform());
+  Iteration iteration(context, start, dt, flow.equations().front().curvature_transform());
   for (;;) {
     iteration.move();
     if (iteration.arrives(arrival)) return iteration.take();

@@ -3,6 +3,7 @@
 #include <list>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/state/recycled_subspaces.hpp"
@@ -18,18 +19,21 @@ class FlowSystems {
   /// @param recycled             of RecycledSubspaces
   FlowSystems(const FlowParameters& parameters, const Membrane& membrane, FlowOptions options,
               double explicit_relaxation, std::shared_ptr<const RecycledScalars> recycled);
+  FlowSystems(const FlowSystems&) = delete;
+  FlowSystems& operator=(const FlowSystems&) = delete;
   /// The system of this size, made where it is asked for first; the oldest of very many goes.
   [[nodiscard]] FlowSystem& of(double dt);
-  /// What was recycled and what has been learned, for the next step.
+  /// For the next step.
   [[nodiscard]] std::shared_ptr<const RecycledScalars> recycled() const;
 
  private:
-  FlowParameters parameters_;
-  const Membrane& membrane_;
+  std::vector<FlowMembrane> alone_;
+  Interaction none_;
+  MembraneFlow flow_;
   FlowOptions options_;
   double explicit_tension_time_;  ///< times the dt of a system: the tension that is not held
   std::shared_ptr<const RecycledScalars> recycled_;
-  std::list<std::pair<double, FlowSystem>> systems_;  // in the order in which they were asked for
+  std::list<std::pair<double, std::unique_ptr<FlowSystem>>> systems_;  // in the order in which they were asked for
 };
 
 }  // namespace vehd

@@ -11,10 +11,10 @@ struct SphereFlow {
   double bending_modulus;  ///< 0 without bending
   double dt;
   double viscosity_ratio = 1.0;
-  double held_tension = 0.0;  ///< of the force 2 held_tension h n, see membrane_velocity
+  double held_tension = 0.0;  ///< of the force 2 held_tension h n, see FlowOptions
 };
 
-/// The coupled system of solve_flow on a sphere, degree n: rows curvature and divergence, columns h and λ.
+/// FlowEquations on a sphere, degree n: rows curvature and divergence, columns h and λ.
 /// With V = ∇Y − (n+1) Y r̂ and W = ∇Y + n Y r̂ the Stokes single layer has eigenvalues n/((2n+1)(2n+3)) and
 /// (n+1)/((2n+1)(2n−1)); weighted densities carry R². A viscosity contrast divides them by those of
 /// contrast_spectrum.

@@ -13,9 +13,9 @@ struct SolvedTensions {
   std::vector<Vector> tension;     ///< λ of each, coefficients; empty where the membrane may extend
   std::vector<Matrix> force;       ///< f_λ on the fluid, values on the upsampled grid; empty likewise
   std::vector<Matrix> velocities;  ///< u + w of the membranes, coefficients
-  /// What all solves so far have learned, for the next: of each membrane its rows of the map of all, λ ↦ J ∇_γ·u; the
-  /// columns are in common. Empty of many membranes, and where one is a sphere.
-  std::vector<RecycledSubspace> learned;
+  /// Recycled by the next solve: of each membrane its rows of the map of all, λ ↦ J ∇_γ·u; the columns are in common.
+  /// Empty of many membranes, and where one is a sphere.
+  std::vector<RecycledSubspace> recycled;
   SolveReport report;
 };
 
@@ -33,7 +33,7 @@ struct SolvedTensions {
 /// @param is_sphere   of each membrane, see uniform_tension_is_free
 /// @param weighted    of J f, f the other forces, as MembraneFlow::velocities has them; likewise the background
 /// @param start       λ of each to start from; empty ones are zero. Their flow is found together with w.
-/// @param known       SolvedTensions::learned on membranes that were nearly the same; counts if all of them have it
+/// @param recycled    SolvedTensions::recycled on membranes that were nearly the same; counts if all of them have it
 /// @param tolerance   of the preconditioned residual, over the preconditioned ∇_γ·w or, from a start, over the tensions
 ///                    without their means, of which it is the error
 /// Accuracy: two spheres along their line of centres as Stimson and Jeffery say to 1e-8 down to gaps of half a radius
@@ -41,7 +41,7 @@ struct SolvedTensions {
 /// Source: paper Eq. (27b), the layers being those of all membranes
 SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const std::vector<bool>& is_sphere,
                               MembraneFlow& flow, std::vector<Matrix> weighted, const std::vector<Matrix>& background,
-                              const std::vector<Vector>& start, const std::vector<RecycledSubspace>& known,
+                              const std::vector<Vector>& start, const std::vector<RecycledSubspace>& recycled,
                               double tolerance);
 
 }  // namespace vehd

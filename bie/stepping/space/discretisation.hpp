@@ -45,7 +45,7 @@ class MembraneSpace {
   /// Transform between degree p and the upsampled grid; of axisymmetric fields it sees four longitudes.
   [[nodiscard]] const SphereTransform& fine_transform() const { return fine_; }
   /// Transform between the upsampled grid and the degree to which implicit steps know changes of H, see
-  /// CurvatureOptions: one more than p, as positions of degree p have normal parts of the next degree.
+  /// FlowOptions: one more than p, as positions of degree p have normal parts of the next degree.
   [[nodiscard]] const SphereTransform& curvature_transform() const { return curvature_; }
   /// The same symmetries in fields of that degree.
   [[nodiscard]] const SymmetrySubspace& curvature_subspace() const { return curvature_subspace_; }

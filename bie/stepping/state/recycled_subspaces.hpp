@@ -47,7 +47,7 @@ void visit_members(SentScalars& sent, Unpacking& unpacking);
 /// null. Directions that served one step serve the next, whose operators are nearly the same.
 struct RecycledSubspaces {
   std::shared_ptr<const RecycledScalars> tension;  ///< λ ↦ J ∇_γ·u
-  std::shared_ptr<const RecycledScalars> flow;     ///< (h, λ) ↦ (Hop(u), J ∇_γ·u), see FlowRightHandSide
+  std::shared_ptr<const RecycledScalars> flow;     ///< (h, λ) ↦ (Hop(u), J ∇_γ·u), see FlowScalars
   std::int64_t unaided_iterations = 0;             ///< of the last step that nothing of `flow` was known for
   std::int64_t pause = 0;                          ///< steps to go until `flow` is kept again
 };

@@ -24,21 +24,17 @@ double buckling_compression(const FlowParameters& parameters, double radius) {
   return parameters.bending ? 3.0 * parameters.bending->modulus / (radius * radius) : 0.0;
 }
 
-FlowSystems flow_systems(const FlowParameters& parameters, bool mobile, const MembraneSpace& space, int time_order,
-                         const VesicleSolution& solution, const Vector& tension) {
-  const Membrane& membrane = *solution.membrane;
-  // The paper's scheme leaves explicit what a change of H does to the tension that is there, which overshoots where
-  // tensions are large, as near the sphere.
-  const double explicit_relaxation = time_order == 1 ? thresholds::explicit_relaxation : 0.0;
+FlowOptions flow_options(const FlowParameters& parameters, bool mobile, const MembraneSpace& space, int time_order,
+                         const Membrane& membrane, const Vector& tension) {
   FlowOptions options;
-  options.curvature.transform = space.curvature_transform();
+  options.curvature_transform = space.curvature_transform();
   options.entries = space.curvature_subspace().scalars();
   if (parameters.inextensible && mobile) {
     // Under more compression than that the implicit response would push where it should resist.
-    options.curvature.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(
+    options.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(
         time_order == 1 ? 0.0 : -buckling_compression(parameters, membrane.radius));
   }
-  return {parameters, membrane, options, explicit_relaxation, solution.recycled.flow};
+  return options;
 }
 
 /// What charging changes.
@@ -49,10 +45,17 @@ Unknowns charge_of(const Unknowns& y) { return {{}, y.transmembrane_potential, y
 StepOperations::StepOperations(const Model& model, const Discretisation& discretisation, const State& start,
                                const SolvedFields& at_start, Instruments& instruments)
     : model_(model), discretisation_(discretisation), start_(start), at_start_(at_start), instruments_(instruments) {
+  const int time_order = discretisation.settings().time_order;
+  // The paper's scheme leaves explicit what a change of H does to the tension that is there, which overshoots where
+  // tensions are large, as near the sphere.
+  const double explicit_relaxation = time_order == 1 ? thresholds::explicit_relaxation : 0.0;
   for (std::size_t a = 0; a < start.vesicles.size(); ++a) {
-    flow_.push_back(flow_systems(flow_parameters(model, model.vesicles[a]), model.mobile, discretisation.vesicle(a),
-                                 discretisation.settings().time_order, at_start.vesicles[a],
-                                 at_start.fields.vesicles[a].tension));
+    const FlowParameters parameters = flow_parameters(model, model.vesicles[a]);
+    const VesicleSolution& solution = at_start.vesicles[a];
+    flow_.emplace_back(parameters, *solution.membrane,
+                       flow_options(parameters, model.mobile, discretisation.vesicle(a), time_order, *solution.membrane,
+                                    at_start.fields.vesicles[a].tension),
+                       explicit_relaxation, solution.recycled.flow);
   }
 }
 

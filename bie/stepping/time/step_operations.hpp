@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <span>
 #include <utility>
@@ -170,7 +171,7 @@ class StepOperations {
   const State& start_;
   const SolvedFields& at_start_;
   Instruments& instruments_;
-  std::vector<FlowSystems> flow_;  // of each vesicle
+  std::deque<FlowSystems> flow_;  // of each vesicle
   Iterations iterations_;
   int evaluations_ = 0;
 };

@@ -3,7 +3,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include "bie/physics/effects/tension.hpp"
-#include "bie/stepping/solve/flow_system.hpp"
 #include "bie/stepping/solve/sphere_spectrum.hpp"
 #include "tests/support/membrane.hpp"
 #include "tests/support/shapes.hpp"
@@ -24,7 +23,10 @@ BOOST_AUTO_TEST_CASE(takes_what_a_tension_does_back_to_it) {
     const std::vector<Index> entries = membrane.subspace.scalars();
     const TensionInverse inverse({parameters, membrane}, grid, entries, mean_response);
     const Vector tension = smooth_coefficients(order, 5, 1, 9);
-    const Matrix velocity = membrane_velocity(parameters, membrane, {{}, tension});
+    const std::vector<FlowMembrane> alone{{parameters, membrane}};
+    const Interaction none;
+    const Matrix force = tension_force(membrane, tension);
+    const Matrix velocity = MembraneFlow(alone, none).velocities({membrane.weighted(force)}).front();
     const Vector response = weighted_divergence(membrane, membrane.fine.synthesize_gradient(velocity));
     const Vector found = inverse.apply(response(entries));
     BOOST_TEST(relative_difference(found, Vector(tension(entries))) < 1e-2);

@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(tensions_of_many_keep_every_area_element_of_all) {
   BOOST_TEST(found.iterations_flow <= 25);
 }
 
-BOOST_AUTO_TEST_CASE(what_a_solve_has_learned_serves_the_next) {
+BOOST_AUTO_TEST_CASE(directions_of_a_solve_serve_the_next) {
   const std::vector<Matrix> shapes{asymmetric_shape(8), translated(ellipsoid(8, {0.7, 0.5, 0.9}), {2.4, 0.1, 0.7})};
   const Model model = with_vesicles(shear_model(), 2);
   const Discretisation discretisation = discretisation_of(shapes);

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bie/linear/recycled_subspace.hpp"
+#include "bie/physics/membrane_flow.hpp"
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/solve/tension_inverse.hpp"
+
+namespace vehd {
+
+/// Two scalars on one membrane, coefficients; one that does not exist is empty. As unknowns: `shape` is the change h of
+/// the mean curvature, Eq. (28), or where the membrane is a sphere the normal force c that holds it in shape; `tension`
+/// is λ. As sides of their equations: h − dt Hop(u) or u·n, and J ∇_γ·u.
+struct FlowScalars {
+  Vector shape;
+  Vector tension;
+};
+
+/// Which forces are unknown.
+struct FlowOptions {
+  /// Of the step that treats bending implicitly. 0: tension alone is unknown, and bending is among the given forces.
+  double dt = 0.0;
+  /// λ_0 on the upsampled grid, on which h acts with the force 2 λ_0 h n; empty: zero. The paper's scheme leaves it
+  /// out; deferred corrections converge the better the more of the true response is implicit.
+  Vector held_tension{};
+  /// Between a degree above p and the upsampled grid; empty: h has degree p. Positions of degree p have normal parts,
+  /// and H, of the next degree. Bending does not act on that, but λ_0 does, and it has to be implicit as well: at large
+  /// λ_0 dt/(μR) equilibria are unstable without it.
+  std::optional<SphereTransform> curvature_transform{};
+  /// Coefficients of h and, up to degree p, of λ that can differ from zero, ascending; empty: those of the membrane's
+  /// symmetry.
+  std::vector<Index> entries{};
+  bool is_sphere = false;
+  bool holds_shape = false;  ///< a sphere, by the force c n
+};
+
+/// True where a uniform tension moves nothing, that is, on a sphere: there the constraint does not determine it, and
+/// the area cannot change at constant volume. With undulations the area determines it.
+/// @param membrane  a sphere up to rounding, or not
+bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& membrane);
+
+/// The linear equations for the unknown forces on one frozen membrane, Eqs. (27) and (28): with
+///   f = F h + 2 λ_0 h n + T λ  (F of Eq. (28a), T of Eq. (28c)),
+/// and u the velocity under f,
+///   h − dt Hop(u) = …,   J ∇_γ·u = ….
+/// Scalars take the place of the three components of x^{n+1}, which (27a) needs only through H^{n+1}.
+///
+/// - With undulations the area is free, J (∇_γ·u − e) = …: the uniform dilation e is unknown in place of the first
+///   coefficient of λ, and λ has the mean 0.
+/// - A sphere is held in shape by c n less its mean, c of degrees 2 … p − 1, such that u·n = …. Of the highest degree
+///   truncation leaves a single velocity, which λ rules alone. The mean of λ stays zero.
+///
+/// Vectors of unknowns have each scalar over its own scale, so that a norm adds like to like: one step of size dt bends
+/// a membrane of radius R by h R and strains it by λ dt/(μR), or by λ R²/κ_B where bending answers within the step.
+/// Source: paper Eqs. (5), (27), (28); preconditioned with the spectrum of the sphere as Veerapaneni et al. 2011
+class FlowEquations {
+ public:
+  /// @param one  its membrane must outlive the equations
+  FlowEquations(const FlowMembrane& one, FlowOptions options);
+  /// From now on approximate_inverse is that of the membrane's own response, where λ is the only unknown.
+  void find_inverse(const TensionGrid& grid);
+
+  [[nodiscard]] const Membrane& membrane() const { return one_.membrane; }
+  [[nodiscard]] Index size() const { return n_shape() + n_tension(); }
+  /// Between the degree of h and the upsampled grid: p where there is no λ_0 that more of it could act on.
+  [[nodiscard]] const SphereTransform& curvature_transform() const {
+    return options_.curvature_transform && options_.held_tension.size() > 0 ? *options_.curvature_transform
+                                                                            : membrane().fine;
+  }
+
+  /// Scalars of a vector of unknowns.
+  [[nodiscard]] FlowScalars unknowns(const Vector& v) const;
+  /// The other way.
+  [[nodiscard]] Vector over_scales(const FlowScalars& unknowns) const;
+  /// λ to start from, with the mean that is known with undulations; c is zero.
+  /// @param tension  or empty
+  [[nodiscard]] FlowScalars guess(const Vector& tension) const;
+  /// A vector of unknowns with the uniform part of λ left out.
+  [[nodiscard]] Vector without_mean(Vector unknowns) const;
+
+  /// f, values on the upsampled grid; empty without unknowns.
+  [[nodiscard]] Matrix force(const FlowScalars& unknowns) const;
+  /// Left sides of the equations as rows, without scales.
+  /// @param velocity  that the unknowns make, coefficients
+  [[nodiscard]] Vector left_side(const Matrix& velocity, const Vector& unknowns) const;
+  /// Those of a given velocity.
+  [[nodiscard]] Vector left_side(const Matrix& velocity) const { return left_side(velocity, Vector::Zero(size())); }
+  /// Right sides as rows.
+  [[nodiscard]] Vector rows(const FlowScalars& right_side) const;
+  /// Unknowns from rows: exact on the sphere of the same area, for the actual κ_B, both viscosities and dt.
+  [[nodiscard]] Vector approximate_inverse(const Vector& rows) const;
+
+  /// Rows of an image of this membrane.
+  [[nodiscard]] Vector image(const ImageOfFields& image, const Vector& rows) const;
+
+  /// (h, λ) ↦ (Hop(u), J ∇_γ·u) of RecycledSubspaces as unknowns ↦ left sides.
+  [[nodiscard]] RecycledSubspace in_system(const RecycledSubspace& recycled) const;
+  /// The other way.
+  [[nodiscard]] RecycledSubspace in_scalars(const RecycledSubspace& recycled) const;
+
+ private:
+  [[nodiscard]] Index n() const { return std::ssize(options_.entries); }
+  [[nodiscard]] bool bends() const { return options_.dt > 0.0 && one_.parameters.bending.has_value(); }
+  [[nodiscard]] bool has_shape() const { return bends() || options_.holds_shape; }
+  [[nodiscard]] bool has_tension() const { return one_.parameters.inextensible; }
+  [[nodiscard]] Index n_shape() const { return has_shape() ? n() : 0; }
+  [[nodiscard]] Index n_tension() const { return has_tension() ? n() : 0; }
+  [[nodiscard]] bool area_is_free() const { return of_dilation_.size() > 0; }
+  [[nodiscard]] bool is_shape(Index entry) const;
+  [[nodiscard]] bool is_tension(Index entry) const { return entry < n_coefficients(membrane().fine.order()); }
+  [[nodiscard]] Vector spread(const Eigen::Ref<const Vector>& of_entries, Index count) const;
+  [[nodiscard]] Eigen::Matrix2d sphere_inverse(int degree) const;
+  void with_mean(double mean, Vector& tension) const;
+  void find_sphere_inverse();
+
+  FlowMembrane one_;
+  FlowOptions options_;
+  double shape_scale_ = 1.0;
+  double tension_scale_ = 1.0;
+  Vector of_dilation_;  ///< −J/(μR), rows of λ, where the area is free; else empty
+  Matrix inverse_;      ///< of the sphere: row by row for each entry its 2 x 2 block, [n x 4]
+  std::optional<TensionInverse> of_membrane_;
+};
+
+}  // namespace vehd
