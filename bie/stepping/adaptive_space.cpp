@@ -75,7 +75,7 @@ void Evolution::lower_order_if_idle(std::size_t a) {
   const int lowest = std::max(lowest_order(), order_of_gap(gap_, a));
   if (!adapts() || order(a) <= lowest) return;
   const double idle = thresholds::idle_truncation * truncation_target();
-  const int highest = order(a) - thresholds::worthwhile_degrees;
+  const int highest = order(a) - 2 * thresholds::least_raise;
   // Of the degrees that would be the upper half then, another share can be seen than of those that are it now.
   const auto is_idle_at = [&](int order) {
     State cut = state_;

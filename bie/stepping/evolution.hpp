@@ -114,7 +114,6 @@ class Evolution {
   [[nodiscard]] int raised_order(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] std::vector<int> starting_orders(const std::vector<StartMembrane>& start) const;
   bool raise_orders_for_fields();
-  bool restart_at(const std::vector<int>& orders, const std::function<bool(const Evaluation& former)>& is_needed);
   void start_at(const std::vector<int>& orders, const std::vector<StartMembrane>& start);
   void change_space(std::size_t vesicle, int order, std::int64_t quadrature_level);
   void arrive(State state);

@@ -2,13 +2,12 @@
 #include <cmath>
 
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/evaluation/charge_difference.hpp"
-#include "bie/stepping/evaluation/tension_difference.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/first_step.hpp"
 #include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/resized.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/stepping/time/rate.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -37,10 +36,21 @@ std::vector<int> Evolution::starting_orders(const std::vector<StartMembrane>& st
   return orders;
 }
 
-/// Starts anew at these degrees. Where that cannot be solved for, or is not needed, everything stays: a higher degree
-/// that cannot be had now may be asked for again by a step. @returns whether it has
-bool Evolution::restart_at(const std::vector<int>& orders,
-                           const std::function<bool(const Evaluation& former)>& is_needed) {
+/// Of a start whose charge, which moves V_m, or tension need more than its shape and V_m do: a spectrum that is cut too
+/// early says little of how many degrees more. An ellipsoid has degree 1. Where more cannot be solved for, or change
+/// nothing, everything stays: a step may raise the degree later. @returns whether any rose
+bool Evolution::raise_orders_for_fields() {
+  if (!adapts()) return false;
+  std::vector<int> orders;
+  bool raised = false;
+  for (std::size_t a = 0; a < start_.size(); ++a) {
+    orders.push_back(order(a));
+    const bool has_tension = setup_.model.mobile && setup_.model.vesicles[a].inextensible;
+    if ((!setup_.model.electric && !has_tension) || order(a) >= setup_.settings.order) continue;
+    orders[a] = std::min(setup_.settings.order, order(a) + thresholds::least_raise);
+    raised = true;
+  }
+  if (!raised) return false;
   const Discretisation discretisation = discretisation_;
   const State state = state_;
   const Evaluation evaluation = std::move(evaluation_);
@@ -48,32 +58,14 @@ bool Evolution::restart_at(const std::vector<int>& orders,
     start_at(orders, start_);
     evaluation_ = {};
     arrive(state_);
-    if (is_needed(evaluation)) return true;
+    const Rate former = rate_of(evaluation), now = rate_of(evaluation_);
+    if (instantaneous_difference(setup_.model, evaluation_, former, now).largest() > truncation_target()) return true;
   } catch (const ConvergenceError&) {
   }
   discretisation_ = discretisation;
   state_ = state;
   evaluation_ = evaluation;
   return false;
-}
-
-/// Of a start whose charge, which moves V_m, or tension need more than its shape and V_m do: a spectrum that is cut too
-/// early says little of how many degrees more. An ellipsoid has degree 1. @returns whether any rose
-bool Evolution::raise_orders_for_fields() {
-  std::vector<int> orders;
-  bool raised = false;
-  for (std::size_t a = 0; a < start_.size(); ++a) {
-    orders.push_back(order(a));
-    const bool has_tension = setup_.model.mobile && setup_.model.vesicles[a].inextensible;
-    const bool has_fields = setup_.model.electric || has_tension;
-    if (!adapts() || !has_fields || order(a) >= setup_.settings.order) continue;
-    orders[a] = std::min(setup_.settings.order, order(a) + thresholds::least_raise);
-    raised = true;
-  }
-  return raised && restart_at(orders, [this](const Evaluation& former) {
-           return std::max(charge_difference(setup_.model, discretisation_, former, evaluation_),
-                           tension_difference(setup_.model, former, evaluation_)) > truncation_target();
-         });
 }
 
 void Evolution::evaluate_start() {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bie/linear/thresholds.hpp"
 #include "bie/support/types.hpp"
 
 /// Numbers that decide something in a step, each with its origin: derived, or measured (docs/thresholds.md).
@@ -13,9 +14,9 @@ namespace vehd::thresholds {
 
 /// Columns of each kind that a state carries at most: those that a secant inverse can keep and a third more to choose
 /// from.
-constexpr Index most_recycled = 128;
-/// A step that takes this many times the iterations of one without recycling is misled by it. Measured.
-constexpr double misled_by_recycling = 2.0;
+constexpr Index most_recycled = 4 * most_secant_columns / 3;
+/// A step that takes this many times the iterations of one without recycling is slowed down by it. Measured.
+constexpr double slowed_by_recycling = 2.0;
 /// Steps until recycling is tried again: at two steps in fifty a useless trial costs a few percent of a run. Measured.
 constexpr std::int64_t steps_without_recycling = 50;
 
@@ -84,6 +85,11 @@ constexpr int most_tries_from_past = 2;
 constexpr double step_share = 0.35;
 /// Share of the tolerance that what is found within a step may be wrong by. Measured.
 constexpr double moment_share = 0.25;
+/// Share of the tolerance that the degrees left out may make up, and what two more change of the charge at the start:
+/// the rest is that of the step.
+constexpr double truncation_share = 0.3;
+/// The first step covers this share of the time in which the start changes by the tolerance's root.
+constexpr double first_step_share = 0.5;
 /// From one derivative of a motion to the next, with the time over the step, no more than this is continued: what grows
 /// faster is a jump. Measured.
 constexpr double largest_derivative_ratio = 8.0;
@@ -94,8 +100,6 @@ constexpr double largest_derivative_ratio = 8.0;
 constexpr double best_contraction = 0.12;
 /// The last step is extrapolated to a time at most this many times as far away as it began. Measured.
 constexpr double longest_continuation = 2.0;
-/// The first step covers this share of the time in which the start changes by the tolerance's root.
-constexpr double first_step_share = 0.5;
 
 /// Entries of the Stokes layers up to which threads have a state each, nodes of the step or snapshots within it. What
 /// is larger keeps all of them busy with one, and two would not fit the caches. Measured.
@@ -113,26 +117,18 @@ constexpr double no_sliding = 1e-13;
 
 // Degree and quadrature.
 
-/// What an error of V_m is measured by is at least this share of |E|R, so that a small V_m at the start of charging
-/// need not be known to all its digits.
-constexpr double least_potential_share = 0.1;
-/// The same of tension, as a share of κ_B/R², and of q, as a share of η|E|.
-constexpr double least_tension_share = 0.1;
-constexpr double least_charge_share = 0.1;
+/// Errors of V_m, tension and q are relative to their size, but at least to this share of |E|R, κ_B/R² and η|E|, so
+/// that a small V_m at the start of charging need not be known to all its digits.
+constexpr double least_size = 0.1;
 /// Slowest decay of a spectrum from degree to degree that a geometric series continues: slower ones do not decay within
 /// any degree that vehd has (0.97 to the power 64 is a seventh).
 constexpr double slowest_decay = 0.97;
-/// Share of the tolerance that the degrees left out may make up, and what two more change of the charge at the start:
-/// the rest is that of the step.
-constexpr double truncation_share = 0.3;
 /// Share of the target of x and V_m below which a lower degree is idle: far enough that the degree does not rise again
 /// at once.
 constexpr double idle_truncation = 0.1;
 /// What the layers between vesicles may lose, as a share of the tolerance of the quadrature: they never decide how
 /// exact a run is.
 constexpr double pair_share = 1e-3;
-/// Degrees that a change has to save: four of sixteen are a quarter of the coefficients and half of the assembly.
-constexpr int worthwhile_degrees = 4;
 /// Nodes of the singular quadrature at each level, relative to those of the settings. Between two levels its error
 /// falls by two digits and more.
 inline constexpr std::array quadrature_levels = {1.0, 1.75, 2.6};
@@ -141,7 +137,8 @@ constexpr double idle_quadrature = 1e-2;
 /// Errors of the layers up to this many times what truncation does to them are hidden by it.
 constexpr double above_truncation = 3.0;
 /// Degrees by which one that is too low rises at least: the next one is of the other parity, which adds nothing to a
-/// shape that has mirrors.
+/// shape that has mirrors. One that is too high falls by twice as many at least: four of sixteen are half of the
+/// assembly.
 constexpr int least_raise = 2;
 /// Steps between two attempts to save work: one that fails every time costs little of what a run does.
 constexpr std::int64_t economy_interval = 4;

@@ -19,8 +19,7 @@ class FlowSystem {
   /// @param flow      of the membranes of the equations, must outlive the system. Of several ranks each needs what is
   ///                  on its own membranes, see Interaction, and has the unknowns of all
   /// @param recycled  of RecycledSubspaces, of each membrane, the columns in common; dropped unless all have it in
-  /// these
-  ///                  unknowns
+  ///                  these unknowns
   FlowSystem(std::vector<FlowEquations> equations, MembraneFlow& flow, std::vector<RecycledSubspace> recycled);
   FlowSystem(const FlowSystem&) = delete;
   FlowSystem& operator=(const FlowSystem&) = delete;
@@ -28,8 +27,8 @@ class FlowSystem {
   struct Solution {
     SolveReport report;
     std::vector<FlowScalars> unknowns;
-    std::vector<Matrix>
-        velocities;            ///< that they make, coefficients [n_coefficients x 3]; of the membranes of this rank
+    /// Of the membranes of this rank, coefficients [n_coefficients x 3].
+    std::vector<Matrix> velocities;
     double size_of_rhs = 0.0;  ///< see RecycledGcr
   };
   /// @param right_sides  FlowEquations::rows of each membrane

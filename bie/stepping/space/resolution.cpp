@@ -14,7 +14,7 @@ namespace vehd {
 namespace {
 
 double least_potential_scale(const AppliedField& electric, double radius) {
-  return thresholds::least_potential_share * electric.field.norm() * radius;
+  return thresholds::least_size * electric.field.norm() * radius;
 }
 
 double scale_of(double least, double largest) {
@@ -33,13 +33,13 @@ double charge_scale(const Model& model, std::size_t vesicle, double largest) {
   const ElectricParameters electric = electric_parameters(model, model.vesicles[vesicle]);
   const double contrast = electric.averaged_frequency ? std::abs(complex_conductivities(electric).contrast())
                                                       : std::abs(conductivity_contrast(electric));
-  return scale_of(thresholds::least_charge_share * contrast * electric.field.norm(), largest);
+  return scale_of(thresholds::least_size * contrast * electric.field.norm(), largest);
 }
 
 double tension_scale(const Model& model, std::size_t vesicle, double largest) {
   const std::optional<BendingParameters>& bending = model.vesicles[vesicle].bending;
   // κ_B/R² over the area 4π R².
-  return scale_of(bending ? thresholds::least_tension_share * 4.0 * std::numbers::pi * bending->modulus : 0.0, largest);
+  return scale_of(bending ? thresholds::least_size * 4.0 * std::numbers::pi * bending->modulus : 0.0, largest);
 }
 
 Resolution::Resolution(const Model& model, const VesicleState& vesicle, VisibleShare share)

@@ -52,7 +52,7 @@ RecycledSubspaces after_step(const RecycledSubspaces& before, std::shared_ptr<co
   if (!before.flow) {
     after.unaided_iterations = iterations;
     if (after.pause > 0) --after.pause;
-  } else if (iterations > thresholds::misled_by_recycling * static_cast<double>(before.unaided_iterations)) {
+  } else if (iterations > thresholds::slowed_by_recycling * static_cast<double>(before.unaided_iterations)) {
     after.pause = thresholds::steps_without_recycling;
   }
   after.flow = after.pause > 0 ? nullptr : std::move(flow);

@@ -131,7 +131,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   std::vector<VisibleDifference> derivatives;
   for (int sweep = 1;; ++sweep) {
     y.evaluate_rates();
-    if (const auto change = y.change_at_last()) errors.derived.add(std::max(change->tension, change->charge));
+    if (const auto change = y.change_at_last()) errors.derived.add(change->largest());
     // If this sweep is likely to be the last, its end is remapped at once.
     const bool likely = sweep == order - 1 || (sweep > 1 && errors.after(sweep) <= allowed);
     std::vector<NodeSolution> corrected = y.all_corrected(likely ? NodeEnd::remapped : NodeEnd::material);

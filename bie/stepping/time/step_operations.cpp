@@ -293,25 +293,4 @@ VisibleDifference StepOperations::visible_difference(const NodeSolution& a, cons
   return largest;
 }
 
-InstantaneousDifference StepOperations::instantaneous_difference(const Rate& a, const Rate& b) const {
-  InstantaneousDifference largest;
-  for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
-    const Rate::Instantaneous& x = a.instantaneous[i];
-    const Rate::Instantaneous& y = b.instantaneous[i];
-    const double tension = std::abs(y.tension.sum - x.tension.sum);
-    largest.tension = std::max(largest.tension, tension / tension_scale(model_, i, y.tension.magnitude));
-    if (x.charge.size() == 0 || y.charge.size() == 0) continue;
-    const SphereTransform& fine = discretisation_.vesicle(i).fine_transform();
-    const double charge = fine.synthesize(y.charge - x.charge).cwiseAbs().maxCoeff();
-    const double size = fine.synthesize(y.charge).cwiseAbs().maxCoeff();
-    largest.charge = std::max(largest.charge, charge / charge_scale(model_, i, size));
-    if (y.potential_amplitude.size() == 0) continue;
-    const double potential = fine.synthesize(y.potential_amplitude - x.potential_amplitude).cwiseAbs().maxCoeff();
-    const double most = fine.synthesize(y.potential_amplitude).cwiseAbs().maxCoeff();
-    const double radius = at_start_.vesicles[i].membrane->radius;
-    largest.charge = std::max(largest.charge, potential / potential_scale(*model_.electric, radius, most));
-  }
-  return largest;
-}
-
 }  // namespace vehd

@@ -27,12 +27,6 @@ struct VisibleDifference {
   double potential = 0.0;  ///< of V_m at material points, over its size, and of the state of poration
 };
 
-/// How two rates of one node differ in what is solved for at once, the largest of all vesicles.
-struct InstantaneousDifference {
-  double tension = 0.0;  ///< of ∫λ dA, over ∫|λ| dA
-  double charge = 0.0;   ///< of q in the maximum norm, over its size, and of V_m where it is solved for at once
-};
-
 /// What a node is for: within a step fields stay with the material; at its end they are carried to new nodes.
 enum class NodeEnd { material, remapped };
 
@@ -115,9 +109,10 @@ class StepOperations {
   /// Largest difference of two solutions of one node, of x over the radius and of V_m over its size.
   [[nodiscard]] double difference(const NodeSolution& a, const NodeSolution& b) const;
   [[nodiscard]] VisibleDifference visible_difference(const NodeSolution& a, const NodeSolution& b) const;
-  /// Tensions and charges that are small against those of the bending modulus and of the field count as if they were
-  /// larger.
-  [[nodiscard]] InstantaneousDifference instantaneous_difference(const Rate& a, const Rate& b) const;
+  /// See there.
+  [[nodiscard]] InstantaneousDifference instantaneous_difference(const Rate& a, const Rate& b) const {
+    return vehd::instantaneous_difference(model_, at_start_, a, b);
+  }
 
   /// Evaluations of new shapes so far.
   [[nodiscard]] int evaluations() const { return evaluations_; }
