@@ -33,7 +33,7 @@ struct CheckInput {
 /// @throws OutputError
 void write_check_input(const std::filesystem::path& file, const CheckInput& input);
 
-/// The same file with the shapes alone.
+/// A file with the shapes alone.
 /// @throws OutputError
 void write_shape_input(const std::filesystem::path& file, const FrozenShape& shape);
 

@@ -93,7 +93,7 @@ class RunReader {
   [[nodiscard]] std::size_t nearest(double time) const;
   /// Number of the snapshot at this time, up to the rounding of decimal numbers; nullopt if there is none.
   [[nodiscard]] std::optional<std::size_t> find(double time) const;
-  /// The same.
+  /// Number of the snapshot at this time, see find.
   /// @throws InputError if there is none
   [[nodiscard]] std::size_t at(double time) const;
   /// A snapshot, which must not outlive the reader.

@@ -22,7 +22,7 @@ class DataTable {
   [[nodiscard]] const std::string& unit(std::size_t column) const { return units_[column]; }
   /// nullopt if there is no column of that name.
   [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
-  /// The same.
+  /// Column of that name, see find.
   /// @throws InputError that names the nearest column
   [[nodiscard]] std::size_t column(const std::string& name) const;
   /// A cell as it is written, without blanks around it.

@@ -19,7 +19,7 @@ class StackedEntries {
     size_ += std::ssize(entries);
     fields_.push_back({n_rows, n_columns, first, std::move(entries)});
   }
-  /// The same of a field whose entries can all differ from zero.
+  /// Adds a field whose entries can all differ from zero.
   void add(Index n_rows, Index n_columns) {
     std::vector<Index> all(static_cast<std::size_t>(n_rows * n_columns));
     std::iota(all.begin(), all.end(), Index{0});

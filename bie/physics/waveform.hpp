@@ -17,7 +17,7 @@ class Waveform {
   Waveform() = default;
   /// amplitude · cos(2π frequency t + phase), phase in radians.
   static Waveform alternating(double amplitude, double frequency, double phase);
-  /// The same during [start, start + duration), 0 otherwise.
+  /// amplitude · cos(2π frequency t + phase) during [start, start + duration), 0 otherwise.
   static Waveform burst(double amplitude, double frequency, double phase, double start, double duration);
   /// amplitude during [start, start + duration), 0 otherwise.
   static Waveform pulse(double amplitude, double start, double duration);

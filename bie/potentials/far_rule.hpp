@@ -15,7 +15,7 @@ class FarRule {
   /// @param position    coefficients of the membrane, [n_coefficients x 3]
   /// @param nodes       from that degree to the grid
   FarRule(const Matrix& position, const SphereTransform& nodes);
-  /// The same on a grid of its own.
+  /// The nodes are those of a grid of this degree.
   /// @param grid_order  not below the degree of the membrane
   FarRule(const Matrix& position, int grid_order);
 

@@ -50,7 +50,7 @@ class Shares {
       }
     }
   }
-  /// The same where there are no images.
+  /// Gathers values where there are no images.
   /// @throws std::logic_error where there are
   template <typename T>
   void gather(std::vector<T>& values) const {
