@@ -6,7 +6,8 @@
 
 // The finite elements are one process for each processor.
 BOOST_AUTO_TEST_SUITE(check_wall, *boost::unit_test::precondition(finite_elements_are_built) *
-                                      boost::unit_test::label("slow") * boost::unit_test::label("once"))
+                                      boost::unit_test::label("slow") * boost::unit_test::label("once") *
+                                      boost::unit_test::label("extended"))
 
 namespace {
 
