@@ -13,7 +13,9 @@ namespace vehd {
 
 int Evolution::lowest_order() const { return std::min(lowest_adaptive_order, setup_.settings.order); }
 
-double Evolution::truncation_target() const { return thresholds::truncation_share * setup_.control.tolerance; }
+double Evolution::truncation_target() const {
+  return thresholds::truncation_share * setup_.control.tolerance / growth_;
+}
 
 void Evolution::lower_quadrature_if_idle(std::size_t a) {
   const std::int64_t level = state_.vesicles[a].quadrature_level;

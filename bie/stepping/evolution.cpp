@@ -74,6 +74,24 @@ Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments
       discretisation_(discretisation_of(setup_, with_images(setup_.symmetry.exchange, state))),
       state_(with_images(setup_.symmetry.exchange, std::move(state))) {}
 
+/// Growth under the present tension and under that after the next discontinuity of the forcing before `end`: a membrane
+/// that is elongated now may be compressed then, and no later degree restores what was truncated before.
+void Evolution::expect_growth(double end) {
+  if (!adapts() || !setup_.model.mobile) return;
+  growth_ = growth_of_wrinkles(setup_.model, state_, evaluation_);
+  const std::optional<double> jump = next_discontinuity(setup_.model, state_.time);
+  if (!jump || *jump >= end) return;
+  State there = state_;
+  there.time = *jump;
+  try {
+    const SolvedFields after = solve_fields(setup_.model, discretisation_, there, instruments_, &evaluation_,
+                                            Limit::after, Shapes::of_previous);
+    growth_ = std::max(growth_, growth_of_wrinkles(setup_.model, there, after));
+  } catch (const ConvergenceError&) {
+    // Without a solution there the present growth has to do.
+  }
+}
+
 double Evolution::truncation(const State& state) const {
   double most = 0.0;
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) most = std::max(most, resolution(state, a).remainder());
@@ -249,6 +267,7 @@ Evolution::Reaction Evolution::react(StepAttempt& attempt, const StepPlan& plan,
 }
 
 StepAttempt Evolution::step(const EventTimes& events) {
+  expect_growth(events.end_time);
   const double from = state_.time;
   std::vector<bool> raised(state_.vesicles.size(), false);
   StepPlan plan = plan_towards(events, state_.dt_next);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bie/stepping/evaluation/evaluation.hpp"
+#include "bie/stepping/evaluation/growth.hpp"
 #include "bie/stepping/evaluation/initial_state.hpp"
 #include "bie/stepping/evaluation/smallest_gap.hpp"
 #include "bie/stepping/space/resolution.hpp"
@@ -40,7 +40,8 @@ using KeepFormer = std::function<void(State&&, Evaluation&&)>;
 ///
 /// With a tolerance the degree of each vesicle follows the spectrum of its state. If the state at the end of a step has
 /// significant coefficients beyond the degree, the degree rises and the step is repeated, at most once; a degree that
-/// is too high falls. With a tolerance the degree also rises with the inverse root of the gap between two vesicles.
+/// is too high falls. The truncation error of a compressed membrane is limited to the tolerance over the expected
+/// growth of wrinkles. With a tolerance the degree also rises with the inverse root of the gap between two vesicles.
 ///
 /// The singular quadrature is refined where the layers lose accuracy. No quadrature resolves parts of a membrane much
 /// closer to each other than the grid spacing: the run ends there, and where two vesicles come too near, see
@@ -109,11 +110,14 @@ class Evolution {
   [[nodiscard]] int lowest_order() const;
   [[nodiscard]] double truncation_target() const;
   [[nodiscard]] StepPlan plan_towards(const EventTimes& events, double wanted) const;
+  void expect_growth(double end);
   [[nodiscard]] bool resolves(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] int order_of_gap(const SmallestGap& gap, std::size_t vesicle) const;
   [[nodiscard]] int raised_order(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] std::vector<int> starting_orders(const std::vector<StartMembrane>& start) const;
   bool raise_orders_for_fields();
+  bool raise_orders_for_growth();
+  bool restart_at(const std::vector<int>& orders, const std::function<bool(const Evaluation& former)>& is_needed);
   void start_at(const std::vector<int>& orders, const std::vector<StartMembrane>& start);
   void change_space(std::size_t vesicle, int order, std::int64_t quadrature_level);
   void arrive(State state);
@@ -138,6 +142,7 @@ class Evolution {
   State state_;
   SmallestGap gap_;
   Evaluation evaluation_;
+  double growth_ = 1.0;               // of wrinkles, see growth_of_wrinkles, with a tolerance
   std::vector<StartMembrane> start_;  // until it is evaluated
   std::optional<Evaluation> before_jump_;
   std::vector<Moment> passed_;

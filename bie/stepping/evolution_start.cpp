@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
@@ -36,21 +37,10 @@ std::vector<int> Evolution::starting_orders(const std::vector<StartMembrane>& st
   return orders;
 }
 
-/// Of a start whose charge, which moves V_m, or tension need more than its shape and V_m do: a spectrum that is cut too
-/// early says little of how many degrees more. An ellipsoid has degree 1. Where more cannot be solved for, or change
-/// nothing, everything stays: a step may raise the degree later. @returns whether any rose
-bool Evolution::raise_orders_for_fields() {
-  if (!adapts()) return false;
-  std::vector<int> orders;
-  bool raised = false;
-  for (std::size_t a = 0; a < start_.size(); ++a) {
-    orders.push_back(order(a));
-    const bool has_tension = setup_.model.mobile && setup_.model.vesicles[a].inextensible;
-    if ((!setup_.model.electric && !has_tension) || order(a) >= setup_.settings.order) continue;
-    orders[a] = std::min(setup_.settings.order, order(a) + thresholds::least_raise);
-    raised = true;
-  }
-  if (!raised) return false;
+/// Starts anew at these degrees. Where that cannot be solved for, or is not needed, everything stays: a higher degree
+/// that cannot be had now may be asked for again by a step. @returns whether it has
+bool Evolution::restart_at(const std::vector<int>& orders,
+                           const std::function<bool(const Evaluation& former)>& is_needed) {
   const Discretisation discretisation = discretisation_;
   const State state = state_;
   const Evaluation evaluation = std::move(evaluation_);
@@ -58,8 +48,7 @@ bool Evolution::raise_orders_for_fields() {
     start_at(orders, start_);
     evaluation_ = {};
     arrive(state_);
-    const Rate former = rate_of(evaluation), now = rate_of(evaluation_);
-    if (instantaneous_difference(setup_.model, evaluation_, former, now).largest() > truncation_target()) return true;
+    if (is_needed(evaluation)) return true;
   } catch (const ConvergenceError&) {
   }
   discretisation_ = discretisation;
@@ -68,9 +57,47 @@ bool Evolution::raise_orders_for_fields() {
   return false;
 }
 
+/// Of a start whose charge, which moves V_m, or tension need more than its shape and V_m do: a spectrum that is cut too
+/// early says little of how many degrees more. An ellipsoid has degree 1. @returns whether any rose
+bool Evolution::raise_orders_for_fields() {
+  std::vector<int> orders;
+  bool raised = false;
+  for (std::size_t a = 0; a < start_.size(); ++a) {
+    orders.push_back(order(a));
+    const bool has_tension = setup_.model.mobile && setup_.model.vesicles[a].inextensible;
+    const bool has_fields = setup_.model.electric || has_tension;
+    if (!adapts() || !has_fields || order(a) >= setup_.settings.order) continue;
+    orders[a] = std::min(setup_.settings.order, order(a) + thresholds::least_raise);
+    raised = true;
+  }
+  return raised && restart_at(orders, [this](const Evaluation& former) {
+           const Rate before = rate_of(former), now = rate_of(evaluation_);
+           return instantaneous_difference(setup_.model, evaluation_, before, now).largest() > truncation_target();
+         });
+}
+
+/// Of a start that is compressed: what is cut off grows, and no later degree brings it back. @returns whether any rose
+bool Evolution::raise_orders_for_growth() {
+  if (start_.empty()) return false;
+  expect_growth(std::numeric_limits<double>::infinity());
+  std::vector<int> orders;
+  bool raised = false;
+  for (std::size_t a = 0; a < start_.size(); ++a) {
+    orders.push_back(order(a));
+    const Resolution found = resolution(state_, a);
+    if (resolves(found, a)) continue;
+    orders[a] = raised_order(found, a);
+    raised = true;
+  }
+  return raised &&
+         restart_at(with_images(setup_.symmetry.exchange, std::move(orders)), [](const Evaluation&) { return true; });
+}
+
 void Evolution::evaluate_start() {
   arrive(state_);
   while (raise_orders_for_fields()) {
+  }
+  while (raise_orders_for_growth()) {
   }
   start_.clear();
   if (state_.dt_next == 0.0) state_.dt_next = first_step(setup_, evaluation_, state_);

@@ -83,6 +83,8 @@ constexpr double most_after_rejection = 0.9;
 constexpr int most_tries_from_past = 2;
 /// Share of the tolerance that one step may leave by its estimate: those of about three steps add up. Measured.
 constexpr double step_share = 0.35;
+/// What a degree leaves out of a compressed membrane is expected to grow by this at most. Measured.
+constexpr double most_growth = 30.0;
 /// Share of the tolerance that what is found within a step may be wrong by. Measured.
 constexpr double moment_share = 0.25;
 /// Share of the tolerance that the degrees left out may make up, and what two more change of the charge at the start:
