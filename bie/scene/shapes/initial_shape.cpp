@@ -63,7 +63,7 @@ Matrix radial_position(const Scene& scene) {
 /// @return nullopt where there is none, or where a ray from the centre would meet the membrane twice
 std::optional<Matrix> with_reduced_volume(const Matrix& position, double reduced_volume) {
   constexpr int most_passes = 40;
-  constexpr double rounding = 1e-12;
+  constexpr double rounding = 1e-13;  // of v
   const int order = order_of(position.rows());
   const double radius = std::sqrt(size_of(position).area / (4.0 * std::numbers::pi));
   const Matrix sphere = ellipsoid_position({radius, radius, radius}, order);
@@ -75,7 +75,7 @@ std::optional<Matrix> with_reduced_volume(const Matrix& position, double reduced
   };
   const double wanted = std::sqrt(1.0 - reduced_volume);
   double before = 0.0, t = wanted == 0.0 ? 0.0 : 1.0, depth_before = 0.0, now = depth(t);
-  for (int pass = 0; std::abs(now - wanted) > rounding; ++pass) {
+  for (int pass = 0; std::abs(now * now - wanted * wanted) > rounding; ++pass) {
     const double next = t + (wanted - now) * (t - before) / (now - depth_before);
     if (pass == most_passes || !std::isfinite(next)) return std::nullopt;
     before = std::exchange(t, next);
