@@ -67,8 +67,7 @@ ExitCode check(const CheckOptions& options) {
 void add_check_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("check", "Compare the fields of a frozen shape with finite elements");
   const auto options = std::make_shared<CheckOptions>();
-  command->add_option("FILE", options->scene.source.file, "run.h5 of a run, or a scene (.toml) for its initial state")
-      ->required();
+  add_frozen_state(*command, options->scene.source.file);
   add_settings(*command, options->scene);
   add_snapshot_time(*command, options->time);
   command
@@ -78,7 +77,7 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
       ->check(time_text());
   command
       ->add_option("-o,--output", options->directory,
-                   "Directory for the results; \"check\" beside a run.h5, out/NAME_check for NAME.toml")
+                   "Directory for the results; \"check\" in that of a run, out/NAME_check for NAME.toml")
       ->type_name("DIR");
   command->add_flag("--quick", options->quick, "Coarse finite elements: 5 to 20 s of processor time for smooth shapes");
   command

@@ -11,7 +11,7 @@ namespace vehd {
 namespace {
 
 struct MeshOptions {
-  std::string file;
+  std::filesystem::path file;
   std::optional<std::string> time;
   std::string output;
   std::string family = "hex";
@@ -23,8 +23,7 @@ ExitCode mesh(const MeshOptions& options) {
   const FemProgram fem;
   const FrozenShape shape = read_frozen_shape(options.file, options.time);
   for (const std::string& note : shape.notes) fmt::print(stderr, "{}\n", note);
-  const FemProgram::Result result =
-      write_volume_mesh(fem, {shape, options.output, options.family, options.refine});
+  const FemProgram::Result result = write_volume_mesh(fem, {shape, options.output, options.family, options.refine});
   if (result.code != ExitCode::done) return result.code;
   fmt::print("mesh: {}\n", options.output);
   write_json(options.common, result.json);
@@ -36,7 +35,7 @@ ExitCode mesh(const MeshOptions& options) {
 void add_mesh_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("mesh", "Write the gmsh volume mesh of a frozen shape, or of two");
   const auto options = std::make_shared<MeshOptions>();
-  command->add_option("FILE", options->file, "run.h5 of a run, or a scene (.toml) for its initial shape")->required();
+  add_frozen_state(*command, options->file);
   add_snapshot_time(*command, options->time);
   command->add_option("-o,--output", options->output, "Mesh to write (MSH 4.1)")->required()->type_name("FILE.msh");
   command->add_option("--family", options->family, "hex: curved blocks; tet: unstructured tetrahedra")

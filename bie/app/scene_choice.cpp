@@ -46,6 +46,16 @@ void add_settings(CLI::App& command, SceneChoice& scene) {
       ->allow_extra_args(false);
 }
 
+void add_frozen_state(CLI::App& command, std::filesystem::path& file) {
+  const auto file_of_run = [](std::string text) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(text, ignored) ? (std::filesystem::path(text) / "run.h5").string() : text;
+  };
+  command.add_option("FILE", file, "Directory of a run, its run.h5, or a scene (.toml) for its initial state")
+      ->required()
+      ->transform(file_of_run);
+}
+
 int WorkerOptions::jobs() const { return n_jobs > 0 ? n_jobs : std::max(1, omp_get_num_procs() / n_threads); }
 
 void add_workers(CLI::App& command, WorkerOptions& workers) {

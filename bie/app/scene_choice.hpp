@@ -26,6 +26,9 @@ void add_scene_choice(CLI::App& command, SceneChoice& scene);
 /// --set alone.
 void add_settings(CLI::App& command, SceneChoice& scene);
 
+/// Adds FILE, whose fields or shape are examined: a scene, a run.h5, or the directory of a run in place of its run.h5.
+void add_frozen_state(CLI::App& command, std::filesystem::path& file);
+
 /// Processes that compute runs side by side.
 struct WorkerOptions {
   int n_jobs = 0;  ///< 0: not given

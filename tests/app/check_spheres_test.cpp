@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(two_prolates_are_checked_at_their_start_and_after_a_step) {
   const ProgramResult run = run_vehd({"run", scene, "-o", directory / "run", "--no-plot", "--set", "numerics.degree=12",
                                       "--set", "numerics.end_time=0.2", "--set", "output.every=0.2"});
   BOOST_TEST_REQUIRE(run.exit_code == 0, run.errors);
-  const nlohmann::json of_run = checked(directory / "run/run.h5", directory / "of_run");
+  const nlohmann::json of_run = checked(directory / "run", directory / "of_run");
   for (const nlohmann::json& json : {of_scene, of_run}) {
     BOOST_TEST_REQUIRE(json["vesicles"].size() == 2U);
     for (const nlohmann::json& vesicle : json["vesicles"]) {
