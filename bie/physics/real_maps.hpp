@@ -77,8 +77,8 @@ FieldOf<Scalar> applied_flux(const ElectricMembrane& of) {
 template <typename Scalar>
 FieldOf<Scalar> mean_potential(const ElectricMembrane& of, const FieldOf<Scalar>& potential,
                                const FieldOf<Scalar>& weighted_jump, const FieldOf<Scalar>& of_others) {
-  const auto& [electric, membrane] = of;
-  const Vector applied = membrane.fine.analyze(-(membrane.surface.position * electric.field));
+  const Membrane& membrane = of.membrane;
+  const Vector applied = membrane.fine.analyze(-(membrane.surface.position * of.electric.field));
   FieldOf<Scalar> mean =
       applied.cast<Scalar>() -
       mapped<Scalar>([&](const Matrix& parts) -> Matrix { return membrane.layers.laplace_double.apply(parts); },
