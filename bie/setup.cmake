@@ -17,7 +17,8 @@
 #   cmake -DSTEP=fuzz -P bie/setup.cmake      installs clang, fuzzes each reader of files for 10 minutes; -DSECONDS=60
 #                                             before -P for another time
 #   cmake -DSTEP=docs -P bie/setup.cmake   renews every picture of the pages, and every table that the program measures itself
-#   cmake -DSTEP=site -P bie/setup.cmake   makes one site of the pages and the interfaces of all headers, in build/site;
+#   cmake -DSTEP=site -P bie/setup.cmake   makes one site of the pages, the Python API and the interfaces of all headers, in
+#                                          build/site, with executed notebooks where build has the module of Python;
 #                                          compiles nothing
 #   cmake -DSTEP=package -P bie/setup.cmake   builds a Debian package for every x86-64, in build-levels, lets lintian read
 #                                             it and tries it
@@ -127,7 +128,7 @@ macro(need_python_module package module)
 endmacro()
 
 if(STEP STREQUAL "site")
-  # The site needs nothing of what compiles and draws.
+  # The site needs none of the tools that compile and draw.
   include("${CMAKE_CURRENT_LIST_DIR}/cmake/site_tools.cmake")
   list(APPEND missing ${missing_site_tools})
 else()

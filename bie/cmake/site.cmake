@@ -1,4 +1,5 @@
-# One site from the pages of docs/, the files of the top folder and the headers of bie/, in SITE, which is made anew:
+# One site from the pages of docs/, the files of the top folder, the docstrings of the module of Python and the headers of
+# bie/, in SITE, which is made anew:
 #   cmake -DSITE=build/site -P bie/cmake/site.cmake
 # A warning of Sphinx or doxygen is an error. With -DOPTIONAL=ON it is made only where its tools are there.
 cmake_minimum_required(VERSION 3.25)
@@ -20,6 +21,7 @@ set(pages "${site}-pages")
 file(REMOVE_RECURSE "${site}" "${pages}")
 file(GLOB files "${source}/*.md")
 file(COPY ${files} "${source}/docs" DESTINATION "${pages}")
+file(COPY "${source}/bie/python/vehd" DESTINATION "${pages}/python_module")
 
 get_filename_component(mathjax "${mathjax}" DIRECTORY)
 foreach(part IN ITEMS MathJax.js config/TeX-AMS_SVG.js extensions jax/element jax/input/TeX jax/output/SVG)
