@@ -7,7 +7,9 @@
 #include <numeric>
 
 #include "bie/bench/stability_case.hpp"
+#include "bie/files/run_reader.hpp"
 #include "bie/pictures/plots.hpp"
+#include "bie/pictures/shape_field.hpp"
 #include "bie/runs/run_loop.hpp"
 #include "bie/runs/verdict.hpp"
 #include "bie/scene/effective_scene.hpp"
@@ -159,13 +161,23 @@ BenchTable faults_table(const BenchTable& rows) {
   return table;
 }
 
+/// Whether the last shape has a hollow, which no view from outside shows: H > 0 on more than a hundredth of its area.
+bool has_hollow(const RunPaths& paths) {
+  constexpr int grid_degree = 24;
+  constexpr double least_share = 0.01;
+  const RunReader run(paths.snapshots());
+  const auto read = read_shape(run.snapshot(run.times().size() - 1), ShapeField::curvature);
+  const Shape shape = shape_of(read, ShapeField::curvature, grid_degree);
+  return shape.weights.dot((shape.values.array() > 0.0).cast<double>().matrix()) > least_share * shape.weights.sum();
+}
+
 }  // namespace
 
 std::filesystem::path draw_case(const RunPaths& paths, const std::filesystem::path& folder) {
   make_directory(folder);
   constexpr double width = 300.0;
   const std::filesystem::path picture = folder / (paths.directory.filename().string() + ".png");
-  plot_shapes({paths, {}, folder, PictureFormat::png, {.width = width}}, {picture});
+  plot_shapes({paths, {}, folder, PictureFormat::png, {.section = has_hollow(paths), .width = width}}, {picture});
   return picture;
 }
 

@@ -259,7 +259,9 @@ HistoryCurve band_of_oscillation(HistoryCurve curve) {
   curve.errors.resize(n);
   for (std::size_t i = 0; i < n; i += stride) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (std::size_t j = i - std::min(i, period / 2); j < std::min(n, i + period / 2 + 1); ++j) {
+    // Near the ends the nearest whole period, since the middle of a part of one depends on its phase.
+    const std::size_t start = std::min(i - std::min(i, period / 2), n - std::min(n, period + 1));
+    for (std::size_t j = start; j < std::min(n, start + period + 1); ++j) {
       if (!std::isfinite(values[j])) continue;
       least = std::min(least, values[j]);
       most = std::max(most, values[j]);
