@@ -33,20 +33,22 @@ struct Surface {
 /// (tests/geometry/curvature_test.cpp)
 Surface make_surface(const SphereTransform& transform, const Matrix& position_coefficients);
 
-/// J = W/sin θ alone, which first derivatives determine.
+/// J = W/sin θ alone, [n_points], which first derivatives determine.
+/// @param position_coefficients  [n_coefficients x 3]
 /// @throws ShapeError unless there are three columns
 /// Accuracy: that of make_surface, to rounding (tests/geometry/curvature_test.cpp)
 /// Source: paper Eq. (20)
 Vector area_element(const SphereTransform& transform, const Matrix& position_coefficients);
 
-/// ∇_γ f, [n_points x 3], from the derivatives of one scalar field; Eq. (19).
+/// ∇_γ f, [n_points x 3], from the first derivatives of one scalar field, each [n_points x 1].
 /// Accuracy: spectral; gradients of smooth functions to 1e-11 (tests/geometry/surface_calculus_test.cpp)
 /// Source: paper Eq. (19)
 Matrix surface_gradient(const Surface& surface, const SphereDerivatives& scalar);
-/// ∇_γ·v for a vector field with all three Cartesian components, tangential or not.
+/// ∇_γ·v, [n_points], from the first derivatives of the three Cartesian components of v, tangential or not, each
+/// [n_points x 3].
 /// Accuracy: spectral; to 1e-11, and ∫∇_γ·v dA = −2∫H v·n dA to 1e-12 (tests/geometry/surface_calculus_test.cpp)
 Vector surface_divergence(const Surface& surface, const SphereDerivatives& vector);
-/// Δ_γ of every column; needs the Hessian.
+/// Δ_γ f of every column, [n_points x n_fields], from first and second derivatives on the surface's grid.
 /// Accuracy: spectral; Δ_γ x = 2Hn to 1e-11 (tests/geometry/surface_calculus_test.cpp)
 Matrix surface_laplacian(const Surface& surface, const SphereDerivatives& fields);
 
@@ -54,7 +56,7 @@ Matrix surface_laplacian(const Surface& surface, const SphereDerivatives& fields
 /// Accuracy: spectral; of a 2:1 prolate to 1e-12 (tests/geometry/curvature_test.cpp)
 /// Source: paper Eq. (22)
 double surface_area(const Surface& surface);
-/// ∫f dA / ∫dA of a vector field, [n_points x 3].
+/// ∫f dA / ∫dA of a vector field, values [n_points x 3].
 Vector3 surface_mean(const Surface& surface, const Matrix& values);
 /// ∫x dA / ∫dA.
 Vector3 centroid(const Surface& surface);

@@ -9,13 +9,13 @@ namespace vehd {
 
 /// Solves A x = b for several right-hand sides of one operator, left-preconditioned, by generalised conjugate residuals
 /// (Eisenstat, Elman and Schultz 1983). Directions are kept: each later right-hand side starts from its projection on
-/// what the former ones have found, so that a sequence of rough solves costs little more than one fine solve. What is
-/// known of a similar operator proposes directions and does not change what is solved.
+/// the images of all earlier directions, so that a sequence of loose solves costs little more than one tight solve.
+/// Samples of a similar operator propose directions and do not change the equations.
 ///
-/// Directions are combinations of proposals with coefficients that grow as proposals become dependent, and with them
-/// grows what the map's rounding leaves between A x and what is kept of it. The coefficients are carried along: they
-/// tell which proposals are too dependent to be used, and how far the recurrence for the residual can be off. Success
-/// is reported where the residual is small with that added, and else only of b − A x itself.
+/// Directions are combinations of proposals. Their coefficients grow as proposals become dependent, and so does the
+/// difference, from rounding of the map, between A x and the image that is stored. The coefficients are stored as well:
+/// they bound that difference, which excludes proposals that are too dependent and bounds the error of the residual's
+/// recurrence. Success is reported if the residual plus this bound is small, and otherwise only from b − A x itself.
 /// Accuracy: the true residual is below the tolerance wherever success is reported (tests/linear/recycled_gcr_test.cpp)
 class RecycledGcr {
  public:
@@ -31,13 +31,14 @@ class RecycledGcr {
     Vector further;            ///< the map's further entries at x
     double size_of_rhs = 0.0;  ///< norm of the preconditioned right-hand side
   };
-  /// @param start       where the solve starts, of size 0 for x = 0; options as for gmres
+  /// @param rhs         b, of length `size`
+  /// @param start       where the solve starts, of length `size`, or of length 0 for x = 0
   /// @param least_size  scale of residuals if the preconditioned right-hand side is smaller
   Solution solve(const Vector& rhs, const Vector& start, const SolveOptions& options, double least_size = 0.0);
 
   /// Directions and their images under A from all solves so far.
   [[nodiscard]] RecycledSubspace learned() const;
-  /// The columns of `known` that say something new.
+  /// The columns of `known` that are not nearly dependent on newer ones.
   [[nodiscard]] const std::vector<Index>& kept() const { return secant_.kept(); }
 
  private:

@@ -8,8 +8,8 @@
 
 namespace vehd {
 
-/// Fields of several bodies, in coefficients of which only some can differ from zero, one behind the other as a solver
-/// sees them. A field has one or more columns: the parts of a complex scalar, the components of a vector.
+/// The unknowns of a solver, stacked in one vector: the coefficients of the fields of several bodies that can differ
+/// from zero. A field has one or more columns: the parts of a complex scalar, the components of a vector.
 class StackedEntries {
  public:
   /// One more field, [n_rows x n_columns].
@@ -26,10 +26,13 @@ class StackedEntries {
     add(n_rows, n_columns, std::move(all));
   }
 
+  /// Number of entries of all fields.
   [[nodiscard]] Index size() const { return size_; }
   /// Row of the first entry of a field.
   [[nodiscard]] Index first(std::size_t field) const { return fields_[field].first; }
 
+  /// The entries of all fields, [size()].
+  /// @param fields  [n_rows x n_columns] each, in the order in which they were added
   template <typename Field>
   [[nodiscard]] Vector stack(const std::vector<Field>& fields) const {
     Vector result(size_);
@@ -40,7 +43,8 @@ class StackedEntries {
     return result;
   }
 
-  /// The other way, zero elsewhere. @tparam Field  Matrix, or Vector where all have one column
+  /// The fields, [n_rows x n_columns] each, from their entries, [size()]; zero elsewhere.
+  /// @tparam Field  Matrix, or Vector where all have one column
   template <typename Field>
   [[nodiscard]] std::vector<Field> fields(const Vector& stacked) const {
     std::vector<Field> result;
@@ -51,7 +55,7 @@ class StackedEntries {
     return result;
   }
 
-  /// A number of each field, at all of its entries.
+  /// [size()], one number a field, repeated at all of its entries.
   [[nodiscard]] Vector spread(const std::vector<double>& numbers) const {
     Vector result(size_);
     for (std::size_t a = 0; a < fields_.size(); ++a) {

@@ -11,7 +11,7 @@
 
 namespace vehd {
 
-/// One of many membranes, with the points of it where the layers of the others are wanted.
+/// One of many membranes, with the points on it at which the layers of the others are evaluated.
 struct ExpandedMembrane {
   Matrix position;         ///< coefficients, [n_coefficients x 3]
   Matrix points, normals;  ///< of the targets, [n_targets x 3]; normals of any length
@@ -30,9 +30,9 @@ class FarExpansions {
   FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance, SharedTransforms& transforms,
                 Shares shares = {});
 
-  /// Whether the layers of the second at the first are among the sums.
+  /// Whether the sums at `target` include the layers of `source`.
   [[nodiscard]] bool is_far(std::size_t target, std::size_t source) const;
-  /// How many targets of all pairs are, of the membranes of this rank.
+  /// Number of targets in all far pairs of the membranes of this rank.
   [[nodiscard]] Index n_targets() const;
 
   /// For each membrane of this rank the sum of a layer over all that are far from it, at its points.

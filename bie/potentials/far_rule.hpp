@@ -12,20 +12,21 @@ namespace vehd {
 /// Source: paper Eqs. (6), (8), (9), (22)
 class FarRule {
  public:
-  /// @param position    coefficients of the membrane, [n_coefficients x 3]
-  /// @param nodes       from that degree to the grid
+  /// @param position  coefficients of the membrane, [n_coefficients x 3]
+  /// @param nodes     transform from the membrane's degree to the grid of the rule
   FarRule(const Matrix& position, const SphereTransform& nodes);
-  /// The nodes are those of a grid of this degree.
-  /// @param grid_order  not below the degree of the membrane
+  /// @param position    coefficients of the membrane, [n_coefficients x 3]
+  /// @param grid_order  degree of the grid of the rule, not below that of the membrane
   FarRule(const Matrix& position, int grid_order);
 
   /// A density at the nodes times their weights.
-  /// @param density  [n_coefficients x fields] @return [n x fields]
+  /// @param density  [n_coefficients x fields]
+  /// @return         [n x fields], n the nodes filled up to whole instructions
   [[nodiscard]] Matrix charges(const Matrix& density) const;
 
   /// A layer summed over the nodes for targets with normals N there, prefactors included.
   /// @param points, normals   [n_targets x 3]
-  /// @param charges           of its density
+  /// @param charges           of its density, see charges()
   /// @param plane             of images
   /// @return                  [n_targets x 1], of a Stokes layer [n_targets x 3]
   [[nodiscard]] Matrix sums(PairLayer layer, const Matrix& points, const Matrix& normals, const Matrix& charges,
@@ -33,10 +34,11 @@ class FarRule {
 
   /// A layer at several targets as rows over the coefficients of its density: quadrature and the adjoint of the
   /// synthesis in one. For N·∇S, N·∇D and the Stokes double layer.
-  /// @return [n_coefficients x PairColumns::count of that layer alone], of one target behind the other
+  /// @return [n_coefficients x n_targets * n_rows(layer)], the rows of each target as columns
   [[nodiscard]] Matrix rows(PairLayer layer, const Matrix& points, const Matrix& normals) const;
 
-  /// D[1] at targets: 0 outside, −1 inside, up to the error of the rule.
+  /// D[1] at targets, [n_targets]: 0 outside, −1 inside, up to the error of the rule.
+  /// @param points  [n_targets x 3]
   [[nodiscard]] Vector enclosures(const Matrix& points) const;
   [[nodiscard]] Index n_nodes() const { return n_nodes_; }
 

@@ -9,13 +9,12 @@
 
 namespace vehd {
 
-/// Nodes that are looked at together, as many as a register holds: one instruction each of what compilers would else do
-/// one by one.
+/// Number of nodes that one instruction handles: as many as a register holds.
 constexpr Index kTogether = Eigen::internal::packet_traits<double>::size;
 /// A register of them.
 using Few = Lanes<kTogether>::Values;
 
-/// The values that stand from there on.
+/// The kTogether values from an address on.
 inline Few few(const double* at) { return Lanes<kTogether>::load(at); }
 
 inline void store(double* at, const Few& values) { Lanes<kTogether>::store(at, values); }
@@ -27,7 +26,7 @@ inline Few inverse_root(const Few& squares) {
   return std::bit_cast<Few>(roots);
 }
 
-/// Of those from a given one on.
+/// Sum of the values from number `from` on.
 inline double sum(const Few& values, Index from = 0) {
   double result = 0.0;
   for (Index i = from; i < kTogether; ++i) result += values[i];

@@ -20,20 +20,21 @@ struct FootPoint {
   double smallest_stretch = 0.0, largest_stretch = 0.0;
 };
 
-/// Newton's method on the sphere from a starting direction: steps along great circles in local frames, so that poles
-/// are no special points, each shortened until it brings the surface nearer.
-/// @param position  coefficients of x, [n_coefficients x 3]
+/// The foot point by Newton's method on the sphere from a starting direction: steps along great circles in local
+/// frames, so that poles are ordinary points, each shortened until it brings the surface nearer.
+/// @param position  coefficients of the surface, [n_coefficients x 3]
 /// @param start     unit vector of the parametrisation near the foot point
+/// @param target    x, on either side or on the surface, at any distance
 /// @throws ConvergenceError after too many steps
-/// @param target    x, on either side and at any distance, on the surface too
 /// Accuracy: rounding; feet to 1e-12 and heights to 1e-14 for |height| from 1e-7 to 0.1 on a shape of size 1
 /// (tests/potentials/foot_point_test.cpp)
 FootPoint find_foot_point(const Matrix& position, const Vector3& start, const Vector3& target);
 
-/// The same for many targets, which take their steps together: in a third of the time of one by one.
+/// Foot points of many targets, which take their steps together, in a third of the time of find_foot_point.
+/// @param position  coefficients of the surface, [n_coefficients x 3]
 /// @param starts   [n x 3]
 /// @param targets  [n x 3]
-/// @throws ConvergenceError of the first of them that needs too many steps
+/// @throws ConvergenceError naming the first target that needs too many steps
 std::vector<FootPoint> find_foot_points(const Matrix& position, const Matrix& starts, const Matrix& targets);
 
 /// Which graded rules suit a target near a membrane; targets of equal choice share their tables.
@@ -44,9 +45,10 @@ struct NearRule {
   auto operator<=>(const NearRule&) const = default;
 };
 
-/// @param order      degree p of surface and densities
-/// @param tolerance  of the rules
-/// @param on_membrane  the target is there: no distance has to be resolved
+/// The rule for a target with this foot point.
+/// @param order        degree p of surface and densities
+/// @param tolerance    of the rules, relative
+/// @param on_membrane  the target is on the membrane: no distance has to be resolved
 /// Source: Johnston and Elliott 2005 for the grading; error of the trapezoidal rule along circles about the foot point,
 /// Trefethen and Weideman 2014
 NearRule near_rule(const FootPoint& foot, int order, double tolerance, bool on_membrane);

@@ -10,19 +10,18 @@ namespace vehd {
 
 /// Fourier sums over the azimuths ψ_k = (k + ½) 2π/n of a graded rule, and their adjoint, of many columns at once:
 /// matrix products over a quarter of the circle, because ψ, π − ψ, π + ψ and −ψ differ in signs alone.
-/// Accuracy:
-/// rounding (tests/potentials/azimuth_sums_test.cpp)
+/// Accuracy: rounding (tests/potentials/azimuth_sums_test.cpp)
 class AzimuthSums {
  public:
   AzimuthSums() = default;
   /// @param n_phi  azimuths, a multiple of 4
   /// @param order  highest m
-  /// @throws ShapeError if n_phi is none
+  /// @throws ShapeError if n_phi is not a multiple of 4
   AzimuthSums(int n_phi, int order);
 
   /// Amplitudes of cos mψ for m = 0..order, then of sin mψ for m = 1..order.
   [[nodiscard]] Index n_modes() const { return 2 * order_ + 1; }
-  /// Values at the azimuths.
+  /// Values at the azimuths, [n_phi x width].
   /// @param amplitudes  [n_modes x width], the width a multiple of kLanes
   [[nodiscard]] RowMatrix values(const RowMatrix& amplitudes) const;
   /// Σ_k of values times cos mψ_k or sin mψ_k.
@@ -61,9 +60,11 @@ struct GradedRule {
   [[nodiscard]] Index n_nodes() const { return theta.size() * n_phi; }
 };
 
-/// @param order    degree p of the harmonics that the tables are for
+/// The rule with tables for harmonics of degree up to p.
+/// @param order    p
 /// @param n_theta, n_phi  multiples of 4
 /// @param scale    smallest angle that is resolved, > 0; height over largest stretch of a foot point
+/// @throws ShapeError if n_theta or n_phi is not a multiple of 4
 /// Accuracy: spectral in n_theta and n_phi; a peak of width 1e-8 and more is integrated to 1e-11
 /// (tests/potentials/foot_point_test.cpp)
 /// Source: the substitution is that of Johnston and Elliott 2005

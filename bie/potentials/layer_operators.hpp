@@ -53,8 +53,9 @@ class SymmetricBlocks {
 
   /// Entry of a block, whichever is the larger index.
   [[nodiscard]] double at(int block, Index i, Index j) const;
+  /// The potential of a density.
   /// @param density  [size x 3]
-  /// @return likewise
+  /// @return         [size x 3]
   [[nodiscard]] Matrix apply(const Matrix& density) const;
 
  private:
@@ -91,10 +92,10 @@ class ScalarOperator {
       : n_coefficients_(n_coefficients), parts_(std::move(parts)) {}
 
   [[nodiscard]] bool empty() const { return parts_.empty(); }
-  /// Every column of the density separately.
-  /// @throws ShapeError
-  /// @param density  [n_coefficients x n_fields], weighted where the layer asks for it (LayerOperators)
+  /// The potential of every column of the density.
+  /// @param density  [n_coefficients x n_fields], f or J f as LayerOperators says
   /// @return         [n_coefficients x n_fields]
+  /// @throws ShapeError if the density has fewer coefficients than the operator
   [[nodiscard]] Matrix apply(const Matrix& density) const;
 
  private:
@@ -124,14 +125,15 @@ class StokesOperator {
       : n_coefficients_(n_coefficients), entries_(std::move(entries)), on_entries_(std::move(transposed)) {}
 
   [[nodiscard]] bool empty() const { return n_rows() == 0 && on_entries_.size() == 0; }
-  /// @throws ShapeError
-  /// @param density  force per area of the single layer as J f, velocity of the double layer as it is, [n_coefficients
-  ///     x 3]
+  /// @param density  J f of the force per area for the single layer, the velocity for the double layer,
+  ///     [n_coefficients x 3]
   /// @return         velocity, [n_coefficients x 3]
+  /// @throws ShapeError if the density has fewer coefficients than the operator
   [[nodiscard]] Matrix apply(const Matrix& density) const;
   /// The operator between some entries of the column-major [n_coefficients x 3], row: velocity, column: density.
   /// @param n_coefficients  of each component
-  /// @param entries         ascending; entries that the operator knows nothing of give zeros
+  /// @param entries         ascending; entries beyond those of the operator give zeros
+  /// @return                [entries x entries]
   [[nodiscard]] Matrix between(Index n_coefficients, const std::vector<Index>& entries) const;
   /// Multiplications of one application.
   [[nodiscard]] double multiplications() const;
@@ -200,9 +202,9 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
                                         Instruments& instruments, const std::vector<Reflection>& reflections = {},
                                         int fold = 1);
 
-/// The same operators for symmetric surfaces and fields: the Stokes layers between the entries that fields which are
-/// their own image have, the Laplace layers in the classes of SymmetrySubspace. Targets that are images of one another
-/// count as one, and products and matrices shrink with the order of the group.
+/// The operators of assemble_layer_operators for symmetric surfaces and fields: the Stokes layers between the entries
+/// that fields which are their own image have, the Laplace layers in the classes of SymmetrySubspace. Targets that are
+/// images of one another count as one, and products and matrices shrink with the order of the group.
 /// @param subspace  of the surface and of all fields that meet Stokes layers
 /// @param fold      of the longitudes: turns by 2π/fold that take surface and longitudes to themselves
 /// Accuracy: rounding; the full operators on symmetric fields to 1e-12 (tests/potentials/symmetric_operators_test.cpp)

@@ -29,7 +29,7 @@ constexpr int n_rows(PairLayer layer) { return is_no_slip(layer) ? 9 : is_stokes
 /// The row of a layer with three components that takes component j of the density to component i.
 constexpr int row_of_block(PairLayer layer, int i, int j) { return is_no_slip(layer) ? 3 * i + j : kStokesBlock[i][j]; }
 
-/// Layers that are wanted, in the order of PairLayer.
+/// Selected layers, in the order of PairLayer.
 struct PairSelection {
   bool laplace_single = false;
   bool laplace_single_normal = false;
@@ -41,7 +41,7 @@ struct PairSelection {
   bool no_slip_double = false;
 };
 
-/// Where targets of the images in a plane without slip stand: beyond it. Of no use to other layers.
+/// The plane without slip of the images, seen from targets beyond it; other layers ignore it.
 struct MirrorPlane {
   Vector3 point = Vector3::Zero(), normal = Vector3::Zero();
 
@@ -77,7 +77,7 @@ struct NearRows {
 NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vector3& offset, const Vector3& normal,
                    const MirroredTarget& mirrored, const PairColumns& columns);
 
-/// A membrane and points outside it at which its layers are wanted.
+/// A membrane and the points outside it at which its layers are evaluated.
 struct PairGeometry {
   Matrix source;           ///< coefficients of the membrane, [n_coefficients x 3]
   Matrix points, normals;  ///< of the targets, [n_targets x 3]
@@ -98,10 +98,9 @@ struct NearRowSettings {
 /// Rows over the coefficients of the densities at targets near a membrane, each by the graded rule about its nearest
 /// point; targets of equal rules share tables.
 /// @param targets  which of the points, in ascending order
-/// @return         [n_coefficients x PairColumns::count], of one target behind the other
-/// @throws ConvergenceError if the nearest point of a target is not found, if a target is not outside the membrane, or
-/// if
-///     the rules do not settle
+/// @return         [n_coefficients x targets.size() * PairColumns::count], the rows of each target as columns
+/// @throws ConvergenceError if the nearest point of a target is not found, a target is not outside the membrane, or the
+/// rules do not converge
 /// Accuracy: the tolerance relative to the largest entry of each layer (tests/potentials/pair_layers_test.cpp)
 /// Source: near_rows
 Matrix rows_of_near_targets(const PairGeometry& at, const std::vector<Index>& targets, const PairColumns& columns,

@@ -5,7 +5,7 @@
 
 #include "bie/support/types.hpp"
 
-/// How two closed membranes lie to each other.
+/// Distance and arrangement of closed membranes.
 namespace vehd {
 
 /// The points of two membranes that are nearest to each other.
@@ -15,7 +15,7 @@ struct NearestPoints {
   double gap = 0.0;
 };
 
-/// Newton's method for both points at once, from the nearest pair of nodes.
+/// Nearest points by Newton's method for both at once, from the nearest pair of nodes.
 /// @param first, second  coefficients of x, [n_coefficients x 3] each
 /// Accuracy: rounding where the nearest pair of nodes is next to the nearest points; prolates and spheres at gaps from
 /// 1e-6 to 10 to 1e-12 (tests/potentials/nearest_points_test.cpp)
@@ -27,16 +27,16 @@ struct ClosestPair {
   NearestPoints points;
 };
 
-/// @param membranes  coefficients of x of each, at least two; pairs that are farther apart than the nearest are passed
-///     over by the balls about them
+/// The closest of all pairs; balls about the membranes exclude distant ones.
+/// @param membranes  at least two; coefficients of x of each, [n_coefficients x 3]
 ClosestPair closest_pair(const std::vector<Matrix>& membranes);
 
-/// Which part of two membranes is within the other.
+/// How two membranes lie to each other.
 enum class Arrangement { apart, they_meet, first_is_inside, second_is_inside };
 
-/// From the nodes of either. Membranes that touch, up to rounding, meet.
-/// @throws ConvergenceError where a nearest point
-/// is not found
+/// Arrangement from the nodes of either membrane; membranes that touch, up to rounding, meet.
+/// @param first, second  coefficients of x, [n_coefficients x 3] each
+/// @throws ConvergenceError if a nearest point is not found
 Arrangement arrangement_of(const Matrix& first, const Matrix& second);
 
 }  // namespace vehd

@@ -39,7 +39,7 @@ class NodeKernels {
   NodeKernels(const KernelColumns& kernels, int chunk)
       : kernels_(kernels), chunk_(chunk), targets_(static_cast<std::size_t>(6 * chunk)) {}
 
-  /// The targets that follow; as many as the chunk.
+  /// Sets the next targets, as many as the chunk.
   void set_targets(std::span<const Target> targets) {
     for (Index t = 0; t < chunk_; ++t) {
       const Target& target = targets[static_cast<std::size_t>(t)];

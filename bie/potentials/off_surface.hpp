@@ -9,7 +9,7 @@
 
 namespace vehd {
 
-/// How far the rules of OffSurfaceLayers go.
+/// Tolerance and limits of OffSurfaceLayers.
 struct OffSurfaceSettings {
   /// Largest change from one rule to the next, relative to the largest density (times the radius √(area/4π) for the
   /// single layers, times its surface gradient for ∇D). The accepted value is that of the finer rule.
@@ -61,10 +61,10 @@ class OffSurfaceLayers {
   OffSurfaceLayers(OffSurfaceLayers&&) noexcept;
   OffSurfaceLayers& operator=(OffSurfaceLayers&&) noexcept;
 
+  /// All layers that have densities. Bit-identical for any number of threads. Targets whose rules do not converge keep
+  /// the last values and are not `resolved`.
   /// @param points  [n_targets x 3]
   /// @param side    limit taken at points on the membrane; the others have a side of their own
-  /// The same numbers for any count of threads. Targets whose rules do not agree in the end keep the last values and
-  /// are not `resolved`.
   /// @throws ConvergenceError if the nearest point of the membrane cannot be found
   [[nodiscard]] OffSurfaceValues evaluate(const Matrix& points, Side side, Instruments& instruments) const;
 
@@ -73,6 +73,7 @@ class OffSurfaceLayers {
   std::unique_ptr<const Data> data_;
 };
 
+/// @param points  the targets, [n_targets x 3]
 /// @throws ConvergenceError naming the first target that is not resolved, with its distance
 void require_resolved(const OffSurfaceValues& values, const Matrix& points);
 

@@ -8,7 +8,7 @@
 
 namespace vehd {
 
-/// How far the rules of PairLayers go.
+/// Tolerance and limits of PairLayers.
 struct PairSettings {
   /// Error of the rules relative to the largest density, times the radius √(area/4π) of the source for the single
   /// layers.
@@ -22,7 +22,7 @@ struct PairSettings {
   double row_bytes = 1e9;
 };
 
-/// How many targets take which way.
+/// Number of targets by method.
 struct PairCounts {
   Index far = 0;        ///< by the smooth rule
   Index near = 0;       ///< by rows of coefficients
@@ -49,11 +49,10 @@ class PairLayers {
   /// @param source   coefficients of the source membrane, [n_coefficients x 3]
   /// @param points   targets, [n_targets x 3]
   /// @param normals  N at the targets, [n_targets x 3]
-  /// @param transforms  those that it needs are made where they are missing
+  /// @param transforms  missing ones are made
   /// @param plane       of images, beyond which the targets are
-  /// @throws ConvergenceError if the nearest point of a target is not found, if a target is not outside the source, or
-  /// if
-  ///     the rules do not settle
+  /// @throws ConvergenceError if the nearest point of a target is not found, a target is not outside the source, or the
+  /// rules do not converge
   PairLayers(const Matrix& source, const Matrix& points, const Matrix& normals, const PairSelection& selection,
              const PairSettings& settings, SharedTransforms& transforms, Instruments& instruments,
              const MirrorPlane& plane = {});

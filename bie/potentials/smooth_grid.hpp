@@ -13,7 +13,7 @@ namespace vehd {
 /// make than to use. Not thread safe.
 class SharedTransforms {
  public:
-  /// Makes it where it is missing.
+  /// The transform, made if it is missing.
   /// @param order       degree of the coefficients
   /// @param grid_order  of the grid, not below it
   const SphereTransform& of(int order, int grid_order) {
@@ -43,7 +43,7 @@ struct SmoothGrid {
 /// The fields on the grid of order grid_order, with their quadrature.
 /// Source: paper Eq. (22)
 SmoothGrid make_smooth_grid(const LayerFields& fields, int grid_order);
-/// The same on the grid of a transform of their degree.
+/// The fields on the grid of a transform, whose degree is theirs.
 SmoothGrid make_smooth_grid(const LayerFields& fields, const SphereTransform& transform);
 
 /// Sums of the smooth rule: error about exp(−2π distance/spacing).
@@ -64,12 +64,13 @@ struct NearestNodes {
   double distance = 0.0;  ///< of the first
 };
 
-/// The nodes nearest to a target by a look at all of them.
+/// The nodes nearest to a target, among all of them.
 NearestNodes nearest_nodes(const SmoothGrid& grid, const Vector3& target);
 
 /// Least weighted |x − y|² between each target x and the nodes y of a grid.
-/// @param weights  of the nodes
+/// @param weights  of the nodes, [n_nodes]
 /// @param x        [n_targets x 3]
+/// @return         [n_targets]
 Vector least_weighted_squares(const SmoothGrid& grid, const Vector& weights, const Matrix& x);
 
 }  // namespace vehd

@@ -9,16 +9,20 @@
 /// real part of order 0, l² + 2m − 1 that of order m, l² + 2m that of its imaginary part.
 namespace vehd {
 
-/// Entries of all degrees up to the given one.
+/// (degree + 1)², the number of solid harmonics of degree up to the given one.
 constexpr Index n_solid(int degree) { return Index{degree + 1} * (degree + 1); }
 
-/// R at points, [n_points x n_solid].
+/// R at points.
+/// @param points  [n_points x 3]
+/// @return        [n_points x n_solid]
 Matrix regular_harmonics(const Matrix& points, int degree);
 
-/// Δ with ∂R/∂x_axis = R Δ, R one row of regular harmonics.
+/// Δ, [n_solid x n_solid], with ∂R/∂x_axis = R Δ, R one row of regular harmonics.
 Eigen::SparseMatrix<double> regular_derivative(int axis, int degree);
 
-/// Moments of unit sources: Σ conj(R), from one row or from a sum of rows of regular harmonics.
+/// Moments of unit sources, Σ conj(R).
+/// @param regular_sums  Σ R over the sources of each column, [n_solid x columns]
+/// @return              [n_solid x columns]
 Matrix moments(const Matrix& regular_sums);
 
 /// Σ_i R_lm(y_i) q_i over the nodes y_i of a membrane, for several q at a time. Every entry of R is read once a sum,

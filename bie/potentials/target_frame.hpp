@@ -20,7 +20,8 @@ class TargetFrame {
   /// Values of the fields at the pole.
   [[nodiscard]] const Eigen::RowVectorXd& pole() const { return pole_; }
 
-  /// Fields at the nodes of a rule, one row per azimuth: column c of NodeColumns at node i is entry c * n_theta + i.
+  /// Fields at the nodes of a rule, [n_phi x filled_up(columns * n_theta)]: in the row of an azimuth column c of
+  /// NodeColumns at node i is entry c * n_theta + i.
   /// Positions are relative to that of the pole, and so are the densities of double layers; those of single layers are
   /// J f. Rows are filled up with zeros.
   [[nodiscard]] RowMatrix nodes(const GradedRule& rule) const;

@@ -117,8 +117,9 @@ class TargetRows {
   /// @param chunk   targets at a time, a multiple of kLanes
   TargetRows(const TargetContext& context, const RowPlaces& places, int chunk);
 
-  /// Fills rows of `rows` where the places say.
+  /// Writes the kernel rows of targets at the columns that the places give.
   /// @param targets  as many as the chunk
+  /// @param rows     row Target::row of each target is written
   void run(std::span<const Target> targets, RowMatrix& rows);
 
  private:

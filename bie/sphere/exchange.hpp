@@ -23,11 +23,14 @@ struct ImageOfFields {
   Isometry map{};
   int potential_sign = 1;  ///< of V_m, which changes its sign where the map reverses the field
 
-  /// f'(g s) = f(s), coefficients; nothing of an empty field. Columns are fields of their own.
+  /// f'(g s) = f(s).
+  /// @param field  coefficients, [n_coefficients x n_fields], or empty
+  /// @return       likewise
+  /// @throws ShapeError if the number of rows is not (p + 1)²
   [[nodiscard]] Matrix scalar(const Matrix& field) const;
-  /// The same of fields that take the sign of V_m, as charges do.
+  /// scalar() times potential_sign, for V_m, potentials and charges, [n_coefficients x n_fields].
   [[nodiscard]] Matrix potential(const Matrix& field) const;
-  /// v'(g s) = g v(s), [n_coefficients x 3].
+  /// v'(g s) = g v(s), coefficients of Cartesian components, [n_coefficients x 3], or empty.
   [[nodiscard]] Matrix vector(const Matrix& field) const;
 };
 
@@ -36,7 +39,7 @@ struct ImageOfFields {
 /// original, has to be computed. By default no body is the image of another one.
 class Exchange {
  public:
-  /// One of the maps.
+  /// A map of the group, with its effect on fields and bodies.
   struct Map {
     ImageOfFields of_fields;
     std::vector<std::size_t> places;  ///< of each body the one that it is taken to
@@ -48,15 +51,15 @@ class Exchange {
 
   /// Is any body the image of another one?
   [[nodiscard]] bool any() const { return !bodies_.empty(); }
-  /// Of turns by 2π/fold about z; 1 where the maps are others.
+  /// The group has turns by 2π/fold about z; 1 without turns.
   [[nodiscard]] int fold() const { return maps_.back().of_fields.map.fold; }
-  /// The maps but for the identity.
+  /// All maps except the identity.
   [[nodiscard]] std::vector<Isometry> maps() const;
   /// Of each body the one that it is an image of, or itself; empty where there are no images.
   [[nodiscard]] const std::vector<std::size_t>& originals() const { return originals_; }
   [[nodiscard]] std::size_t original(std::size_t body) const { return any() ? originals_[body] : body; }
   [[nodiscard]] bool is_image(std::size_t body) const { return original(body) != body; }
-  /// How many of n bodies are no images.
+  /// Number of bodies, of n, that are not images.
   [[nodiscard]] std::size_t n_originals(std::size_t n) const;
   /// Maps fields of its original to those of a body.
   [[nodiscard]] const ImageOfFields& image(std::size_t body) const { return map_of(body).of_fields; }

@@ -10,8 +10,8 @@
 namespace vehd {
 
 /// Fourier sums over the longitudes of one circle in O(n log n), see FourierSums; for long circles.
-/// Plans are made with FFTW_ESTIMATE: a measured plan may differ from run to run, and so would the last bits. Copies
-/// share their plans; every call may run concurrently.
+/// Plans are made with FFTW_ESTIMATE, since a measured plan, and with it the last bits, may differ from run to run.
+/// Copies share their plans; every call may run concurrently.
 /// Accuracy: rounding; the same values as by products of matrices (tests/sphere/fourier_test.cpp)
 /// Source: FFTW (Frigo and Johnson 2005)
 class FastFourier {

@@ -18,10 +18,11 @@ struct SphereGrid {
   [[nodiscard]] Index n_points() const { return Index{n_theta} * n_phi; }
 };
 
-/// Grid that integrates products of two harmonics of degree `order` exactly.
+/// Grid of order + 1 latitudes and 2 order + 2 longitudes, which integrates products of two harmonics of degree `order`
+/// exactly.
 SphereGrid make_grid(int order);
 
-/// The latitudes of make_grid(order) with n_phi longitudes, for fields of few Fourier modes in φ.
+/// The p + 1 latitudes of make_grid(order) with n_phi longitudes, for fields with few Fourier modes in φ.
 SphereGrid make_grid(int order, int n_phi);
 
 /// Longitudes of upsampled grids: the least multiple of `step` from `least`, without a prime above 13 in the other
@@ -34,7 +35,7 @@ struct GaussLegendre {
   Vector weights;
 };
 
-/// Nodes by Newton's method on P_n; error of nodes and weights near machine precision.
+/// The n nodes and weights, by Newton's method on P_n.
 /// Accuracy: monomials are integrated to 1e-13 (tests/sphere/transform_test.cpp)
 /// Source: Newton's method from the asymptotic roots, as Press et al. 1992
 GaussLegendre gauss_legendre(int n);

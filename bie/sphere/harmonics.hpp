@@ -20,7 +20,7 @@ int degree_of(Index index);
 /// @throws ShapeError if the count is no square
 int order_of(Index n_coefficients);
 
-/// Coefficients cut or zero-padded to another order.
+/// Coefficients cut or padded with zeros to another order, [(order + 1)² x n_fields].
 Matrix resize_order(const Matrix& coefficients, int order);
 
 /// Values at arbitrary points: [n_points x n_fields] from coefficients [(p+1)² x n_fields].
@@ -28,9 +28,9 @@ Matrix resize_order(const Matrix& coefficients, int order);
 /// Accuracy: rounding; low degrees are the written formulas to 1e-14 (tests/sphere/transform_test.cpp)
 /// Source: paper Eqs. (16), (17)
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi);
-/// The same of the harmonics with |m| ≤ azimuthal_order alone, at cost O(n_points p azimuthal_order).
+/// [n_points x n_fields] from the harmonics with |m| ≤ azimuthal_order alone, at cost O(n_points p azimuthal_order).
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi, int azimuthal_order);
-/// The same in given directions, which spares the angles.
+/// [n_points x n_fields] in given directions.
 /// @param directions  [n_points x 3], of any length but zero
 Matrix evaluate_harmonics(const Matrix& coefficients, const Matrix& directions, int azimuthal_order);
 

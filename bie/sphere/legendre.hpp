@@ -16,12 +16,12 @@ struct LegendreTables {
   std::vector<Matrix> d_m_over_sin;  ///< d(m T / sin θ)/dθ
 };
 
-/// Tables at the given colatitudes, poles included. Derivatives follow from ladder relations in n and m, so that
-/// nothing is divided by sin θ; relative accuracy near machine precision for order ≤ 256.
+/// Tables at the given colatitudes, [n_theta], poles included. Derivatives follow from ladder relations in n and m,
+/// without division by sin θ; relative accuracy near machine precision for order ≤ 256.
 /// Source: normalised three-term recurrence in n from the sectoral functions, Holmes and Featherstone 2002
 LegendreTables legendre_tables(int order, const Vector& theta);
 
-/// The same for m up to highest_m alone; some of the tables have further ones.
+/// Tables [n_theta x (order + 1 − m)] for m ≤ highest_m; some tables have further m as well.
 LegendreTables legendre_tables(int order, const Vector& theta, int highest_m);
 
 /// Coefficients of the three-term recurrence T_n = a (cos θ T_{n−1} − b T_{n−2}) at fixed m < n.

@@ -2,7 +2,7 @@
 
 #include "bie/sphere/grid.hpp"
 
-/// Walks on the unit sphere that know no pole.
+/// Steps along great circles of the unit sphere, for which the poles are ordinary points.
 namespace vehd {
 
 /// A point of the unit sphere.
@@ -19,7 +19,7 @@ SpherePoint point_of(const Vector3& vector);
 /// The unit vector of a point.
 Vector3 direction(const SpherePoint& point);
 
-/// The end of a great circle that leaves a unit vector along a tangent, as long as that.
+/// End of the great-circle arc that leaves a unit vector along a tangent and is as long as the tangent.
 Vector3 along_great_circle(const Vector3& from, const Vector3& tangent);
 
 /// A point with its frame.
@@ -28,11 +28,11 @@ struct TangentFrame {
   Vector3 radial, e_theta, e_phi;
 
   explicit TangentFrame(const SpherePoint& point);
-  /// The end of a great circle that leaves the point along the step, in (e_θ, e_φ).
+  /// End of the great-circle arc from the point along `step`, in (e_θ, e_φ), as long as the step; radians.
   [[nodiscard]] Vector3 moved(const Eigen::Vector2d& step) const;
 };
 
-/// Largest |m| with a coefficient that is not zero.
+/// Largest |m| with a nonzero coefficient among those of one field, [n_coefficients]; 0 for a field of zeros.
 int azimuthal_order_of(const Vector& coefficients);
 
 }  // namespace vehd

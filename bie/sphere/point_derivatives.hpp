@@ -17,15 +17,16 @@ struct PointDerivatives {
   [[nodiscard]] Eigen::Matrix2d hessian(Index column) const;
 };
 
+/// Values and covariant derivatives of all fields at one point.
 /// @param coefficients     [n_coefficients x n_fields]
 /// @param azimuthal_order  largest |m| with a coefficient that is not zero, see azimuthal_order_of
 /// @throws ShapeError if the count of rows is no (p + 1)²
 /// Accuracy: rounding, as the transform's (tests/sphere/point_derivatives_test.cpp)
 PointDerivatives point_derivatives(const Matrix& coefficients, const SpherePoint& point, int azimuthal_order);
-/// Of fields with all m.
+/// point_derivatives of fields with any m, from coefficients [n_coefficients x n_fields].
 PointDerivatives point_derivatives(const Matrix& coefficients, const SpherePoint& point);
 
-/// The same at many points, in a quarter of the time of one by one.
+/// point_derivatives at many points, [n_coefficients x n_fields], in a quarter of the time that single points take.
 std::vector<PointDerivatives> point_derivatives(const Matrix& coefficients, const std::vector<SpherePoint>& points);
 
 }  // namespace vehd

@@ -39,7 +39,7 @@ class SymmetrySubspace {
   SymmetrySubspace(Symmetry symmetry, int order);
 
   [[nodiscard]] const Symmetry& symmetry() const { return symmetry_; }
-  /// Of a scalar, symmetric or not.
+  /// Coefficients of a scalar, (order + 1)², whether they can differ from zero or not.
   [[nodiscard]] Index n_coefficients() const { return Index{order_ + 1} * (order_ + 1); }
 
   /// coefficient_index of the coefficients of a scalar that may differ from zero if it is its own image, as H and λ
@@ -54,11 +54,12 @@ class SymmetrySubspace {
   /// symmetries takes none to another.
   [[nodiscard]] const std::vector<std::vector<Index>>& scalar_classes() const { return lists_->scalar_classes; }
 
-  /// Means of a field and its images, since an instability would amplify rounding errors that break a symmetry.
+  /// Mean of a field and its images, coefficients, [n_coefficients]: an instability would amplify rounding errors that
+  /// break a symmetry.
   [[nodiscard]] Vector symmetric_scalar(const Vector& field) const;
-  /// See symmetric_scalar; of one that takes the sign of V_m.
+  /// See symmetric_scalar; of a field that takes the sign of V_m, [n_coefficients].
   [[nodiscard]] Vector symmetric_potential(const Vector& field) const;
-  /// See symmetric_scalar; of a vector field, [n_coefficients x 3].
+  /// See symmetric_scalar; of the Cartesian components of a vector field, [n_coefficients x 3].
   [[nodiscard]] Matrix symmetric_vector(const Matrix& field) const;
 
  private:

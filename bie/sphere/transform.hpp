@@ -22,30 +22,31 @@ struct SphereDerivatives {
 /// Source: paper Eqs. (16), (17), (21)
 class SphereTransform {
  public:
-  /// @throws ShapeError if the grid is too coarse for the order
+  /// @throws ShapeError if grid.order < order or grid.n_phi < 2 order + 2
   SphereTransform(int order, SphereGrid grid);
   /// For fields whose Fourier modes in φ end at |m| = azimuthal_order: coefficients of larger |m| are neither read nor
-  /// found (they come out zero), and the grid needs only n_phi > 2 azimuthal_order + 1.
+  /// found (they come out zero), and n_phi ≥ 2 azimuthal_order + 2 longitudes suffice.
   SphereTransform(int order, SphereGrid grid, int azimuthal_order);
 
   /// Degree p of the coefficients.
   [[nodiscard]] int order() const;
-  /// Largest |m| that it knows.
+  /// Largest |m| of the coefficients that it reads and finds.
   [[nodiscard]] int azimuthal_order() const;
   /// The grid of the values.
   [[nodiscard]] const SphereGrid& grid() const;
 
   /// Values [n_points x F] from coefficients [(order+1)² x F].
   [[nodiscard]] Matrix synthesize(const Matrix& coefficients) const;
-  /// Value and first derivatives only (d11, d12, d22 stay empty).
+  /// Value and first derivatives, each [n_points x F], from coefficients [(order+1)² x F]; d11, d12, d22 stay empty.
   [[nodiscard]] SphereDerivatives synthesize_gradient(const Matrix& coefficients) const;
-  /// First derivatives only.
+  /// First derivatives alone, each [n_points x F], from coefficients [(order+1)² x F].
   [[nodiscard]] SphereDerivatives synthesize_first_derivatives(const Matrix& coefficients) const;
-  /// First and second derivatives without the value.
+  /// First and second derivatives without the value, each [n_points x F], from coefficients [(order+1)² x F].
   [[nodiscard]] SphereDerivatives synthesize_derivatives(const Matrix& coefficients) const;
-  /// Value, first and second derivatives.
+  /// Value, first and second derivatives, each [n_points x F], from coefficients [(order+1)² x F].
   [[nodiscard]] SphereDerivatives synthesize_hessian(const Matrix& coefficients) const;
-  /// Coefficients of degree ≤ order by Gauss quadrature; exact for fields of degree ≤ 2 grid.order + 1 − order.
+  /// Coefficients [(order+1)² x F] of degree ≤ order from values [n_points x F] by Gauss quadrature; exact for fields
+  /// of degree ≤ 2 grid.order + 1 − order.
   [[nodiscard]] Matrix analyze(const Matrix& values) const;
 
  private:
