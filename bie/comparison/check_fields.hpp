@@ -15,8 +15,8 @@ struct CheckContents {
   bool flow = false;      ///< a membrane that moves
 };
 
-/// @throws InputError if the scene has something that the finite-element side does not know, or knows of one vesicle
-///                    alone
+/// What can be compared at the frozen time.
+/// @throws InputError if the finite-element side lacks an effect of the scene, or has it for one vesicle only
 CheckContents check_contents(const FrozenState& frozen);
 
 /// A frozen state as both methods are given it.
@@ -27,11 +27,12 @@ struct CheckProblem {
   CheckSamples samples;        ///< of one vesicle alone
 };
 
+/// Contents, forces and sample points of a frozen state.
 /// @throws InputError as check_contents and total_force
 CheckProblem check_problem(const FrozenState& frozen);
 
-/// Boundary-integral solution of one vesicle at one order: coefficients of that order but for f_b and f_c, empty where
-/// absent.
+/// Boundary-integral solution of one vesicle at one order p: coefficients [(p+1)²], of vectors [(p+1)² x 3]; f_b and
+/// f_c have the degree force_order. Absent fields are empty.
 struct CheckFields {
   int order = 0;
   // From x, V_m and the time alone, as a run computes them.
@@ -66,17 +67,19 @@ struct CheckFields {
   double seconds = 0.0;
 };
 
-/// f on the fluid, coefficients: f_b + f_λ − f_E of the fields, and whatever else acts on the shape.
+/// f on the fluid per area, coefficients [n_coefficients x 3]: f_b + f_λ − f_E of the fields, and all other forces on
+/// the shape.
 /// @param fields   of the degree of the frozen state, stored or computed anew
-/// @param vesicle  whose they are
+/// @param vesicle  to which they belong
 /// @throws InputError for a background flow that the finite-element side does not know
 Matrix total_force(const FrozenState& frozen, const VesicleFields& fields, std::size_t vesicle = 0);
 
 /// The parts of the model that are compared.
 Model compared_model(const FrozenState& frozen, const CheckContents& contents);
 
-/// Those of the run at its degree. At another one only an error is estimated: its solvers must add none of their own.
-/// @param vesicle  whose degree
+/// Settings of the run at its degree. At another degree, where only an error is estimated, solvers are no coarser than
+/// their defaults.
+/// @param vesicle  whose degree is compared with `order`
 NumericalSettings settings_at(const FrozenState& frozen, int order, std::size_t vesicle = 0);
 
 /// E_∞ at the frozen time.

@@ -20,15 +20,17 @@ struct CheckSamples {
 
 /// Points within one grid spacing of the membrane on either side, and points further inside and outside; none beyond a
 /// wall.
+/// @param position  coefficients of the membrane, [n_coefficients x 3]
 CheckSamples check_samples(const Matrix& position, const std::optional<Wall>& wall = {});
 
 /// Values at points, [n_points x components], and the side of each.
 using SampleValues = std::pair<Matrix, std::vector<Side>>;
 
-/// Values at sample points, each with its side. All in one call; where that fails each point on its own, and NaN where
-/// no value is found.
-/// @param at  values at [n x 3] points;
-/// @throws ConvergenceError
+/// Values at sample points, [n_points x components]: all in one call of `at`, or if that fails one by one, with NaN
+/// where no value is found.
+/// @param points     [n_points x 3]
+/// @param is_inside  receives the side of each point
+/// @param at         values at [n x 3] points; may throw ConvergenceError
 Matrix where_possible(const Matrix& points, Index components, std::vector<bool>& is_inside,
                       const std::function<SampleValues(const Matrix&)>& at);
 

@@ -18,19 +18,21 @@ class DataTable {
   [[nodiscard]] std::size_t n_rows() const { return rows_.size(); }
   /// Name of a column, counted from 0, without its unit.
   [[nodiscard]] const std::string& name(std::size_t column) const { return names_[column]; }
-  /// As it is written; empty where the column has none.
+  /// Unit of a column as written; empty if it has none.
   [[nodiscard]] const std::string& unit(std::size_t column) const { return units_[column]; }
-  /// nullopt if there is no column of that name.
+  /// Number of the column of that name; nullopt if there is none.
   [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
   /// Column of that name, see find.
   /// @throws InputError that names the nearest column
   [[nodiscard]] std::size_t column(const std::string& name) const;
   /// A cell as it is written, without blanks around it.
   [[nodiscard]] const std::string& text(std::size_t row, std::size_t column) const { return rows_[row].cells[column]; }
+  /// A cell as a number in the unit of its column.
   /// @throws InputError if the cell holds no finite number
   [[nodiscard]] double number(std::size_t row, std::size_t column) const;
-  /// "file:line" of a row, and of the header.
+  /// "file:line" of a row.
   [[nodiscard]] std::string place(std::size_t row) const;
+  /// "file:line" of the header.
   [[nodiscard]] std::string header_place() const;
 
  private:

@@ -33,6 +33,7 @@ struct Measured {
   /// The column of the data, and its header in files.
   [[nodiscard]] std::string column() const { return is_contour() ? contour_radius : quantity; }
   [[nodiscard]] std::string header() const;
+  /// Header of the abscissa in files.
   [[nodiscard]] std::string abscissa_header() const;
 };
 
@@ -70,7 +71,7 @@ std::string dimension_of(const Scene& scene, const std::string& quantity, const 
 /// @throws InputError "place: ..." if it is no unit of the dimension
 double unit_factor(const Scene& scene, const std::string& dimension, const std::string& unit, const std::string& place);
 
-/// Shares the data out among runs: the same abscissa, the same run.
+/// The runs that predict the data: one against time, one for each value of a key.
 std::vector<DataOfRun> runs_of(const Measured& measured, const std::vector<Datum>& data);
 
 /// Fills in data and runs from a file of data.
@@ -86,7 +87,7 @@ constexpr double loosest_tolerance = 1e-2;
 /// that the errors of all together stay below half of what χ changes by for one standard error.
 double run_error_in_deviations(std::size_t n_data);
 
-/// The tolerance for which runs are so exact: the error in the smallest deviation, relative to the largest value.
+/// Tolerance of runs for an error of `run_error` times the smallest deviation, relative to the largest value.
 double tolerance_for(const std::vector<Datum>& data, double run_error);
 
 }  // namespace vehd

@@ -4,7 +4,7 @@
 
 namespace vehd {
 
-/// A key of a scene whose value a fit looks for, as the number in one unit.
+/// A key of a scene that a fit determines, as a number in one unit.
 ///
 /// A fit varies it by a coordinate p without dimension: the logarithm of the number where it is `is_logarithmic`,
 /// otherwise the number over the width of its interval.
@@ -16,7 +16,9 @@ struct FreeKey {
   double start = 0.5;           ///< between them
   std::string place{};          ///< "file:line"
 
+  /// p of a number in `unit`.
   [[nodiscard]] double coordinate_of(double number) const;
+  /// The number in `unit` at p; the inverse of coordinate_of.
   [[nodiscard]] double number_of(double coordinate) const;
   /// "table.key=value" as of the option --set.
   [[nodiscard]] std::string setting_of(double number) const;

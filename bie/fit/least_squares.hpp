@@ -11,10 +11,10 @@ namespace vehd {
 /// Data with standard deviations s_i, and a model m(p) of them whose n parameters p lie in an interval each. p has no
 /// dimension: the logarithm of a positive quantity, or a quantity over the width of its interval.
 struct LeastSquares {
-  Vector data, deviations;
-  Vector lower, upper, start;
-  double run_error = 0.1;  ///< of a model value, in deviations
-  /// m at several points.
+  Vector data, deviations;     ///< d_i and s_i, [n_data]
+  Vector lower, upper, start;  ///< of p, [n_parameters]
+  double run_error = 0.1;      ///< of a model value, in deviations
+  /// m, [n_data], at several points p, [n_parameters] each.
   std::function<std::vector<Prediction>(const std::vector<Vector>& points)> model;
   /// Called after each evaluation; may be empty.
   std::function<void(int n_evaluations, double chi2)> tell{};
@@ -22,11 +22,11 @@ struct LeastSquares {
 
 /// Where χ² = Σ ((d_i − m_i)/s_i)² is least.
 struct Minimum {
-  Vector point;      ///< p
-  Vector model;      ///< m(p)
-  Vector residuals;  ///< (d_i − m_i)/s_i
-  Matrix jacobian;   ///< ∂m_i/∂p_k / s_i, by central differences
-  Vector steps;      ///< h_k of these
+  Vector point;      ///< p, [n_parameters]
+  Vector model;      ///< m(p), [n_data]
+  Vector residuals;  ///< (d_i − m_i)/s_i, [n_data]
+  Matrix jacobian;   ///< ∂m_i/∂p_k / s_i, [n_data x n_parameters], by central differences
+  Vector steps;      ///< h_k of these, [n_parameters]
   bool converged = false;
   int n_evaluations = 0;  ///< of the model, each at one point
 
@@ -37,7 +37,7 @@ struct Minimum {
 /// interval. Derivatives are differences with steps that change the model by about three deviations, ‖h J‖ = 3, within
 /// 0.001 … 0.1: a run's error is then a small part of the change. It ends where a full step would move p by less than a
 /// tenth of a standard error, or with `converged` false after 12 (n + 2) evaluations.
-/// There are as many data as parameters, or more.
+/// Needs at least as many data as parameters.
 /// @throws InputError if the model has no value at the start or beside a point
 /// Source: Moré 1978
 Minimum minimum_of(const LeastSquares& problem);

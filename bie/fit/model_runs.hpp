@@ -24,14 +24,13 @@ struct RunWork {
   std::function<void(std::int64_t n_finished, std::int64_t n_runs, double share)> tell{};
 };
 
-/// The model of experiments: runs of their scenes, each in a directory named by its effective scene. A run that is
-/// there already is not computed again, nor is what a killed one has done, so that the same questions after a kill cost
-/// what is new.
+/// The model of experiments: runs of their scenes, each in a directory named by its effective scene. Finished runs are
+/// not computed again and interrupted ones are continued.
 class ModelRuns {
  public:
-  /// Alone in the directory until destruction.
-  /// @param experiments, interruption  must outlive it; the latter is alive since before the first parallel region
-  /// @throws DirectoryBusy, OutputError
+  /// Locks the directory until destruction.
+  /// @param experiments, interruption  must outlive it; the latter was made before the first parallel region
+  /// @throws DirectoryBusy if another process holds the lock; OutputError
   ModelRuns(const std::vector<Experiment>& experiments, RunWork work, Interruption& interruption);
 
   /// Predictions for several points at once; all their runs are computed side by side.

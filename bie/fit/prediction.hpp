@@ -7,8 +7,7 @@
 
 namespace vehd {
 
-/// The model's values for all data, those of one experiment after those of the other; absent where a run did not reach
-/// its end.
+/// The model's values for all data, experiment after experiment, [n_data]; absent if a run did not reach its end.
 struct Prediction {
   std::optional<Vector> values;
   std::string problem{};  ///< why they are absent

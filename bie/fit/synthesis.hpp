@@ -23,16 +23,16 @@ struct Synthesis {
 
 /// The experiment that would measure these data, their deviations included. A pixel of side h adds h²/12 to the
 /// variance of r.
-/// @throws InputError naming the option to blame
+/// @throws InputError naming the wrong option
 Experiment experiment_of(const Synthesis& synthesis);
 
-/// The model's values of an experiment: by runs with a tolerance of a hundredth of the noise, after runs that say how
-/// large the values are.
+/// The model's values of an experiment, [experiment.data.size()], by runs with a tolerance of a hundredth of the noise;
+/// a first set of runs finds how large the values are.
 /// @throws InputError if a run does not reach its end; Interrupted, OutputError
 Vector simulated_values(Experiment experiment, const RunWork& work, Interruption& interruption);
 
 /// CSV of the model's values with noise: the abscissa, of a contour the angle, the quantity, its deviation.
-/// @param prediction  of `experiment` by runs
+/// @param prediction  simulated_values of `experiment`
 std::string synthetic_data(const Synthesis& synthesis, const Experiment& experiment, const Vector& prediction);
 
 }  // namespace vehd
