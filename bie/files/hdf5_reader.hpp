@@ -12,7 +12,7 @@
 namespace vehd {
 
 /// Reads an HDF5 file that may be damaged or hostile: sizes are checked against those of the stored data before memory
-/// is taken.
+/// is allocated.
 /// @throws InputError "file: what is wrong" from every member
 class Hdf5Reader {
  public:
@@ -28,7 +28,7 @@ class Hdf5Reader {
   /// Dataset of up to 2²¹ numbers of any rank as [last dimensions x first dimension], i.e. [n_points x 3] from [3,
   /// n_theta, n_phi]; rank 1 gives one column.
   [[nodiscard]] Matrix matrix(const std::string& dataset) const;
-  /// All values of a dataset in the file's order.
+  /// All values of a dataset in the file's order, [number of values].
   [[nodiscard]] Vector vector(const std::string& dataset) const;
   /// A dataset of one string.
   [[nodiscard]] std::string text(const std::string& dataset) const;
@@ -45,8 +45,8 @@ class Hdf5Reader {
   [[nodiscard]] bool holds_numbers(const std::string& dataset) const;
   /// Checksum of shape, type and values of a dataset, see seal.hpp.
   [[nodiscard]] std::uint32_t dataset_checksum(const std::string& dataset) const;
-  /// Checksums of all objects from a group down, but for its seal.
-  /// @param closed  a group below whose members do not count
+  /// Checksums of all objects from a group down, except its seal.
+  /// @param closed  a group below it whose members do not count
   [[nodiscard]] ObjectChecksums object_checksums(const std::string& group, const std::string& closed = {}) const;
 
   /// Name of the file in messages.

@@ -31,21 +31,22 @@ class Hdf5Writer {
   /// @param path  of the file, or its name in messages
   Hdf5Writer(const std::filesystem::path& path, Mode mode);
 
-  /// Makes a group; those above it must be there.
+  /// Makes a group; its parents must exist.
   void group(const std::string& path);
   [[nodiscard]] bool has(const std::string& path) const;
-  /// A dataset of numbers.
-  /// @param extents  of each dimension, the slowest first; their product is the count of values
+  /// Writes a dataset of numbers.
+  /// @param extents  of each dimension, the slowest first; their product is the number of values
   void numbers(const std::string& path, std::span<const double> values, const std::vector<hsize_t>& extents,
                const DatasetLabel& label);
+  /// Writes a dataset of integers; extents as of numbers().
   void integers(const std::string& path, std::span<const std::int64_t> values, const std::vector<hsize_t>& extents,
                 const DatasetLabel& label);
-  /// A dataset of one string.
+  /// Writes a dataset of one string.
   void text(const std::string& path, const std::string& value);
   /// Copies an object with all below it.
   void copy_from(const Hdf5Writer& source, const std::string& path);
 
-  /// Attributes of an object that is there.
+  /// Writes an attribute of an existing object.
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
   void attribute(const std::string& object, const std::string& name, const std::string& value);

@@ -20,18 +20,18 @@ namespace vehd {
 /// Source: of this project
 class ErrorBars {
  public:
-  /// @param from  of a run that is resumed; absent: a new one
-  /// @throws ConvergenceError
+  /// @param from  state of the companion of a resumed run; absent: a new one
+  /// @throws ConvergenceError if the companion cannot be started
   ErrorBars(const Scene& scene, const std::optional<CompanionState>& from, Ranks ranks = {});
 
   /// New rows of the history, those of the start and of every step.
   void add(const std::vector<RecordedSide>& sides);
   /// Lets the companion follow.
   /// @param to_end  no further rows will come
-  /// @return  rows of history_error.csv that are known now, with the columns of the history: the time, then errors. Not
-  ///          numbers once the companion cannot take a step
+  /// @return  the rows of history_error.csv that are known now, [n_columns] each with the columns of the history: the
+  ///          time, then errors; NaN once the companion cannot take a step
   std::vector<Vector> follow(bool to_end);
-  /// From which a resumed run continues.
+  /// The companion's state, from which a resumed run continues.
   [[nodiscard]] CompanionState state() const;
 
  private:

@@ -28,10 +28,10 @@ struct HistoryRow {
   // Of several vesicles.
   SmallestGap gap{};
   std::vector<int> orders{};  ///< p of each vesicle
-  int vesicle = 0;            ///< that the row tells of
+  int vesicle = 0;            ///< number of the row's vesicle
 };
 
-/// What a table of a run tells of.
+/// Which vesicles a table of a run covers, and which optional columns it has.
 struct HistoryKind {
   /// history.csv of one vesicle; history.csv of all and vesicles.csv of each where there are several.
   enum Rows { of_one, of_all, of_each };
@@ -46,10 +46,10 @@ struct HistoryKind {
 
 /// Of the vesicles of a scene.
 HistoryKind history_kind(const Scene& scene);
-/// The same with rows of each vesicle.
+/// The kind with a row for each vesicle.
 HistoryKind of_each_like(HistoryKind kind);
 
-/// What a column tells of.
+/// Kind of a column's values.
 enum class ColumnMeaning {
   quantity,
   method,  ///< how the run computes
@@ -67,12 +67,12 @@ struct HistoryColumn {
 
 /// All columns in the order of the file: new ones come last, so that a file of an earlier vehd has the first of them.
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind = HistoryKind::of_one);
-/// Those of a membrane that porates alone, behind all others.
+/// The columns of a membrane that porates, which follow all others.
 std::vector<HistoryColumn> poration_columns(PorationModel model);
-/// How many of them a file at least has. One of an earlier vehd, which has not all, goes on with those that it has.
+/// Number of columns that every file has. A file of an earlier vehd may lack later ones and is continued without them.
 std::size_t first_columns(HistoryKind kind);
 
-/// A row of the values of all columns, without units.
+/// Values of all columns of a row, [n_columns], in the numbers of the scene.
 Vector values_of(const HistoryRow& row, HistoryKind kind);
 
 /// Compares a table with what a checkpoint counts of it, 0 bytes: nothing.
@@ -94,9 +94,11 @@ class HistoryFile {
   HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
               const OutputUnits& units = {}, HistoryKind kind = HistoryKind::of_one);
 
-  /// A row that the disk has no room for leaves nothing of itself behind. @throws OutputError
+  /// A row for which the disk has no room leaves no part behind.
+  /// @throws OutputError if the disk is full
   void append(const HistoryRow& row);
-  /// A row of the values of all columns, without units. @throws OutputError
+  /// Appends the values of all columns, [n_columns], in the numbers of the scene.
+  /// @throws OutputError if the disk is full
   void append(const Vector& values);
   /// Bytes in the file so far.
   [[nodiscard]] std::int64_t bytes() const { return bytes_; }
@@ -135,7 +137,7 @@ class HistoryTable {
   [[nodiscard]] bool is_sealed() const { return is_sealed_; }
   /// Of all columns, in their order.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-  /// Steps that the rows tell of: neither the start nor the other side of a jump took one.
+  /// Number of steps in the rows; the start and the second row at a jump are no steps.
   /// @throws InputError if there is no column of step sizes
   [[nodiscard]] std::int64_t n_steps() const;
   /// Largest magnitude in a column, 0 of none; not a number where there is one. @throws InputError as `column`
@@ -150,7 +152,7 @@ class HistoryTable {
   [[nodiscard]] std::string header(const std::string& name) const;
   /// A time of the file with its unit behind it.
   [[nodiscard]] std::string time_text(double time) const;
-  /// The units that the columns tell of.
+  /// The units of the columns.
   /// @param scales  of the scene of the run
   [[nodiscard]] OutputUnits units(std::optional<UnitsScene> scales) const { return {std::move(scales), symbols()}; }
   /// Their symbols by dimension.

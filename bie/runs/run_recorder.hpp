@@ -42,7 +42,8 @@ class RunRecorder {
   /// @param state  with which a run goes on
   void record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals);
 
-  /// Rows of history_error.csv and what error bars go on with; before the rows of the step with which they came.
+  /// Records rows of history_error.csv, [n_columns] each, and the state of the companion; to be called before record()
+  /// of the same step.
   void record_errors(const std::vector<Vector>& rows, CompanionState companion);
 
   /// Adds a snapshot of the state recorded last unless it has one.

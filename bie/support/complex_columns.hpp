@@ -7,10 +7,10 @@
 
 #include "bie/support/types.hpp"
 
-/// Complex numbers whose real and imaginary parts stand side by side, [n x 2]: amplitudes z of Re(z e^{iωt}).
+/// Complex numbers as columns of their real and imaginary parts, [n x 2]: amplitudes z of Re(z e^{iωt}).
 namespace vehd {
 
-/// c z.
+/// c z, [n x 2].
 inline Matrix times(std::complex<double> c, const Matrix& z) {
   Eigen::Matrix2d map;
   map << c.real(), c.imag(), -c.imag(), c.real();
@@ -21,7 +21,7 @@ inline Matrix times(std::complex<double> c, const Matrix& z) {
 template <typename Scalar>
 using FieldOf = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-/// A real field as one column, a complex one as two.
+/// A real field as one column, [n x 1], a complex one as two, [n x 2].
 inline Matrix parts_of(const FieldOf<double>& real) { return real; }
 inline Matrix parts_of(const FieldOf<std::complex<double>>& z) {
   Matrix parts(z.size(), 2);
@@ -29,7 +29,7 @@ inline Matrix parts_of(const FieldOf<std::complex<double>>& z) {
   return parts;
 }
 
-/// The other way.
+/// The field [n] of its real and imaginary parts, the inverse of parts_of.
 template <typename Scalar>
 FieldOf<Scalar> from_parts(const Matrix& parts) {
   if constexpr (std::is_same_v<Scalar, double>) {
@@ -39,10 +39,10 @@ FieldOf<Scalar> from_parts(const Matrix& parts) {
   }
 }
 
-/// |z|.
+/// |z|, [n].
 inline Vector magnitudes(const Matrix& z) { return z.rowwise().norm(); }
 
-/// arg z in degrees, 0 where |z| is rounding against the largest.
+/// arg z in degrees, [n]; 0 where |z| is a rounding error of the largest.
 inline Vector phases_deg(const Matrix& z) {
   constexpr double kRounding = 1e-9;
   const Vector sizes = magnitudes(z);

@@ -10,21 +10,22 @@ namespace vehd {
 
 struct InitialMembrane {
   Matrix position;   ///< x(θ, φ), [n_coefficients x 3]; θ from +z
-  Vector potential;  ///< V_m where the scene takes it from its shape file, otherwise empty
+  Vector potential;  ///< V_m, [n_coefficients], if the scene takes it from its shape file; otherwise empty
 };
 
 /// @throws InputError if the shape file cannot be used
 /// Accuracy: shapes are truncated to the order of the scene (tests/scene/initial_shape_test.cpp)
 InitialMembrane initial_membrane(const Scene& scene);
 
-/// Its position alone.
+/// The position of initial_membrane alone, [n_coefficients x 3].
 Matrix initial_position(const Scene& scene);
 
 /// Is its reduced volume that of the scene, or none given? An ellipsoid or radial shape is moved towards a sphere or
 /// away from it until it is, which may fail.
 bool has_reduced_volume(const Scene& scene);
 
-/// The snapshot with which a scene of [shape] kind "file" starts. @throws InputError if there is none
+/// The snapshot with which a scene of [shape] kind "file" starts.
+/// @throws InputError if there is none
 RunSnapshot start_snapshot(const RunReader& run, const Scene& scene);
 
 /// Smallest and largest value.
@@ -32,18 +33,18 @@ struct Extremes {
   double least = 0.0, most = 0.0;
 };
 
-/// Of the radius of a radial shape over a fine grid; NaN if some radius is not finite.
+/// Extremes of the radius of a radial shape on a fine grid; NaN if some radius is not finite.
 Extremes radius_extremes(const Scene& scene);
 
-/// Factor of a property over the parameter sphere, coefficients.
-/// @param order  that a cap is cut to
+/// Factor of a property over the parameter sphere, coefficients [(order + 1)²].
+/// @param order  to which a cap is truncated
 /// Accuracy: harmonics exact, a cap to its truncation, see place_truncation
 Vector place_factor(const PlaceScene& places, int order);
 
 /// Largest error of a cap that is cut to a degree, over the difference of its two factors; 0 of harmonics.
 double place_truncation(const PlaceScene& places, int order);
 
-/// What differs from place to place, turned with the shape.
+/// The spatially varying properties, rotated with the shape.
 MembraneMaterial initial_material(const Scene& scene);
 
 }  // namespace vehd

@@ -14,7 +14,8 @@ inline Vector3 vector_of(const Triple& triple) { return {triple[0], triple[1], t
 /// finer keeps aliasing below the truncation.
 SphereTransform shape_transform(int order);
 
-/// Position coefficients of the shape that goes through point(i, θ, φ) at the nodes i of the transform's grid.
+/// Position coefficients, [n_coefficients x 3], of the shape that goes through point(i, θ, φ) at the nodes i of the
+/// transform's grid.
 template <typename Point>
 Matrix position_through(const SphereTransform& transform, const Point& point) {
   const SphereGrid& grid = transform.grid();
@@ -25,21 +26,22 @@ Matrix position_through(const SphereTransform& transform, const Point& point) {
   return transform.analyze(points);
 }
 
-/// Right-handed; exact for quarter turns about the coordinate axes. The axis must not be zero.
-/// @param rotation  axis of any length, angle in degrees
+/// The right-handed rotation, exact for quarter turns about the coordinate axes.
+/// @param rotation  axis of any length but zero, angle in degrees
 Matrix3 rotation_matrix(const AxisAngle& rotation);
 
-/// The body rotated together with its parametrisation, R x(R⁻¹ s): a shape that is symmetric about an axis then has
-/// coefficients that are symmetric about the rotated one.
+/// The body rotated together with its parametrisation, R x(R⁻¹ s), [n_coefficients x 3]: a shape that is symmetric
+/// about an axis then has coefficients that are symmetric about the rotated one.
 Matrix rotated(const Matrix& position, const Matrix3& rotation);
 
-/// A scalar field on the body, coefficients, rotated with it.
+/// A scalar field on the body, coefficients [n_coefficients], rotated with it.
 Vector rotated_scalar(const Vector& field, const Matrix3& rotation);
 
-/// The shape moved by the vector.
+/// The shape moved by a vector, [n_coefficients x 3].
 Matrix shifted(Matrix position, const Triple& by);
 
-/// Zero in place of coefficients that are nothing but rounding: symmetries are read off the coefficients.
+/// Coefficients, [n_coefficients x n_fields], with zeros in place of rounding errors: symmetries are read off the
+/// coefficients.
 Matrix without_rounding(const Matrix& coefficients);
 
 /// Area and volume of the shape by a rule that is fine enough to be exact for resolved shapes.
@@ -51,7 +53,7 @@ struct ShapeSize {
 /// Accuracy: spectral
 ShapeSize size_of(const Matrix& position);
 
-/// Does a run treat it as a sphere?
+/// Does a run treat this shape, [n_coefficients x 3], as a sphere?
 bool is_sphere(const Matrix& position);
 
 }  // namespace vehd
