@@ -16,24 +16,25 @@ struct ChargingMembrane {
   const PorationReaction* reaction = nullptr;  ///< null: the membrane does not porate
 };
 
-/// C_m on the upsampled grid.
+/// C_m on the upsampled grid, [n_points].
 Vector capacitance_of(const ChargingParameters& charging, const Membrane& membrane);
-/// G_m on the upsampled grid.
+/// G_m on the upsampled grid, [n_points].
 Vector conductance_of(const ChargingParameters& charging, const Membrane& membrane);
 
-/// The current through a membrane at every point, outwards and linear in V there: G V + J, values on the upsampled
-/// grid.
+/// The current per area through a membrane, outwards and linear in V at every point: G V + J, values on the upsampled
+/// grid, [n_points].
 struct MembraneCurrent {
   Vector conductance, constant;
 };
-/// (G_m + g(s)) V + J_p.
-/// @param poration  s of a membrane that porates, coefficients; empty: the intact membrane
+/// The current (G_m + g(s)) V + J_p of a membrane.
+/// @param poration  s of a membrane that porates, coefficients [n_coefficients]; empty: the intact membrane
 MembraneCurrent membrane_current(const ChargingMembrane& of, const Vector& poration = {});
-/// Under this V, values on the upsampled grid. @param potential  coefficients
+/// The current under a V, values on the upsampled grid, [n_points].
+/// @param potential  V, coefficients [n_coefficients]
 Vector current_through(const Membrane& membrane, const MembraneCurrent& current, const Vector& potential);
 
-/// What the faces of one membrane hold and let through for a V: E_i = (aV − s_i)/k_i inside and E_e = (aV + s_e)/k_e
-/// outside, with E_k = −∂φ_k/∂n. Values on the upsampled grid; complex for amplitudes.
+/// The fields at the faces of one membrane as functions of V: E_i = (aV − s_i)/k_i inside and E_e = (aV + s_e)/k_e
+/// outside, with E_k = −∂φ_k/∂n. Values on the upsampled grid, [n_points]; complex for amplitudes.
 template <typename Scalar>
 struct CurrentLaw {
   FieldOf<Scalar> a;               ///< real ones are ≥ 0
@@ -49,12 +50,13 @@ struct CurrentLaw {
   [[nodiscard]] Scalar series() const { return k_in * share_in(); }
 };
 
-/// E_i and E_e, values on the upsampled grid.
+/// E_i and E_e, values on the upsampled grid, [n_points].
 template <typename Scalar>
 struct FieldsAtFaces {
   FieldOf<Scalar> in, out;
 };
-/// Those that go with a V. @param potential  coefficients
+/// Both fields for a V.
+/// @param potential  V, coefficients [n_coefficients]
 template <typename Scalar>
 FieldsAtFaces<Scalar> fields_of(const CurrentLaw<Scalar>& law, const Membrane& membrane,
                                 const FieldOf<Scalar>& potential);
@@ -69,7 +71,7 @@ FieldsAtFaces<Scalar> fields_of(const CurrentLaw<Scalar>& law, const Membrane& m
 /// a + κ/R and preconditioned with its inverse on a sphere.
 ///
 /// Collective where membranes are those of several ranks, see Interaction; all ranks get the potentials of all.
-/// @param potentials   coefficients of degree p; first guesses on input, V of each on output
+/// @param potentials   coefficients [n_coefficients]; first guesses on input, V of each on output
 /// @param tolerance    of the preconditioned residual, relative
 /// @throws InputError  if one of several membranes that charges lies between fluids of which one insulates: the
 ///     charge is not known from V there

@@ -23,21 +23,21 @@ double series_conductivity(const ElectricParameters& electric);
 /// in an averaged field. Charge that relaxes in time may be anything.
 bool carries_charge(const ElectricParameters& electric);
 
-/// J D′[V] of Eq. (24): J (n×∇_γ)·S[n×∇_γ V], values on the upsampled grid. Both rotated gradients are formed without
-/// dividing by J: J n×∇_γ f = f_1 x_2 − f_2 x_1.
+/// J D′[V] of Eq. (24): J (n×∇_γ)·S[n×∇_γ V], values on the upsampled grid, [n_points]. Both rotated gradients are
+/// formed without dividing by J: J n×∇_γ f = f_1 x_2 − f_2 x_1.
 /// @param potential  coefficients of V, [n_coefficients]
 /// Accuracy: spectral; eigenvalues −n(n+1)/(2n+1) of the unit sphere to 1e-11 (tests/physics/hypersingular_test.cpp)
 /// Source: paper Eqs. (24)–(26)
 Vector weighted_hypersingular(const Membrane& membrane, const Vector& potential);
 
-/// J E·n, values on the upsampled grid.
+/// J E·n, values on the upsampled grid, [n_points].
 /// Source: right-hand side of paper Eq. (12)
 Vector weighted_field_flux(const Membrane& membrane, const Vector3& field);
 
 /// Solution of (½ + ηS′) g = rhs.
 struct SecondKindSolution {
-  Vector weighted;  ///< coefficients of J g, the unknown of the solve
-  Vector values;    ///< g on the upsampled grid
+  Vector weighted;  ///< coefficients of J g, the unknown of the solve, [n_coefficients]
+  Vector values;    ///< g on the upsampled grid, [n_points]
   SolveReport report;
 };
 
@@ -52,10 +52,12 @@ struct TracesOf {
 
 using ElectricTraces = TracesOf<double>;
 
+/// Potentials, fluxes and charge of one membrane.
 /// @param density  g with (½ + ηS′) g = E·n + D′[V]; the fluxes follow as −σ_e g/(σ_i+σ_e) and −σ_i g/(σ_i+σ_e),
 ///                 the regular form of Eq. (13)
-/// @param potential  V_m, coefficients of degree p
-/// @param of_others  potential of the charges and V_m of other membranes on this one, coefficients, or empty
+/// @param potential  V_m, coefficients [n_coefficients]
+/// @param of_others  potential of the charges and V_m of other membranes on this one, coefficients [n_coefficients], or
+///                   empty
 /// Accuracy: that of the density; σ_i ∂φ_i/∂n = σ_e ∂φ_e/∂n to 1e-14 at every ratio
 /// (tests/physics/electric_sphere_test.cpp)
 /// Source: paper Eqs. (11), (13)
@@ -66,8 +68,7 @@ ElectricTraces electric_traces(const ElectricParameters& electric, const Membran
 /// @param permittivity        outside
 /// @param permittivity_ratio  inside over outside
 /// @return  minus the force per area of the field on the membrane, normal and tangential part, [n_points x 3]; the
-/// fluid
-///     feels f_b + f_λ − f_E
+///     force on the fluid is f_b + f_λ − f_E
 /// Accuracy: spectral; on the sphere to 1e-11 (tests/physics/electric_sphere_test.cpp); errors of Example 1 as the
 /// paper has them (tests/physics/example1_test.cpp)
 /// Source: paper Eqs. (3), (15), (32); Melcher and Taylor 1969

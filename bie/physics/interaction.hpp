@@ -77,13 +77,14 @@ class Interaction {
 
   // Each throws std::logic_error for a layer that was not selected, and where the interaction is empty.
 
-  /// J n·∇S[f] from J f: S′ between membranes. Degree 0 is zero: the layers of others have no flux through a membrane.
+  /// J n·∇S[f] from J f, coefficients [n_coefficients] of each membrane: S′ between membranes. Degree 0 is zero: the
+  /// layers of others have no flux through a membrane.
   [[nodiscard]] std::vector<Vector> weighted_single_flux(const std::vector<Vector>& weighted) const;
-  /// J n·∇D[f] from f: D′ between membranes, degree 0 likewise.
+  /// J n·∇D[f] from f, coefficients [n_coefficients] of each: D′ between membranes, degree 0 likewise.
   [[nodiscard]] std::vector<Vector> weighted_double_flux(const std::vector<Vector>& densities) const;
-  /// S[f] from J f.
+  /// S[f] from J f, coefficients [n_coefficients] of each.
   [[nodiscard]] std::vector<Vector> single_potential(const std::vector<Vector>& weighted) const;
-  /// D[f] from f.
+  /// D[f] from f, coefficients [n_coefficients] of each.
   [[nodiscard]] std::vector<Vector> double_potential(const std::vector<Vector>& densities) const;
   /// Stokes single layer at μ = 1 from J f, [n_coefficients x 3] each.
   [[nodiscard]] std::vector<Matrix> stokes_single(const std::vector<Matrix>& weighted) const;

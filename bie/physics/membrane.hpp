@@ -27,7 +27,8 @@ struct Membrane {
   [[nodiscard]] Matrix weighted(const Matrix& values) const {
     return fine.analyze(surface.area_element.asDiagonal() * values);
   }
-  /// Velocity of the membrane, coefficients, from v_∞ + S[f]/μ_e, which it is between fluids of equal viscosity.
+  /// Velocity of the membrane, coefficients [n_coefficients x 3], from v_∞ + S[f]/μ_e, which it is between fluids of
+  /// equal viscosity.
   [[nodiscard]] Matrix velocity(Matrix driven) const {
     return contrast ? contrast->velocity(driven) : std::move(driven);
   }

@@ -31,17 +31,20 @@ SolveReport charge_membranes(const std::vector<ChargingMembrane>& membranes, con
                              double tolerance, const std::vector<Unknowns>& from, const std::vector<Unknowns>* residual,
                              std::vector<Unknowns>& reached);
 
-/// s of a membrane that porates after such a step in which V is known to end in this.
-/// @param from  V at the start, and s
+/// s of a membrane that porates after such a step, coefficients [n_coefficients], for a given V at its end.
+/// @param from       V and s at the start
+/// @param potential  V at the end, coefficients [n_coefficients]
 Vector react(const PorationReaction& reaction, const SphereTransform& fine, double dt, const Unknowns& from,
              const Unknowns* residual, const Vector& potential);
 
-/// ds/dt, coefficients.
+/// ds/dt for s and V, all coefficients [n_coefficients].
 Vector reaction_rate(const PorationReaction& reaction, const SphereTransform& fine, const Vector& state,
                      const Vector& potential);
 
 /// Steady V_m, the limit of a long step.
-/// @param potentials   first guesses on input, empty ones are zero; the steady V_m of each on output
+/// @param potentials   coefficients [n_coefficients]: first guesses on input, empty ones are zero; the steady V_m of
+/// each
+///     on output
 /// @throws InputError  if nothing determines it (a membrane and a fluid that both insulate, or an insulating membrane
 ///     with a pump), or as solve_laws
 /// Accuracy: spectral; on the sphere to 1e-11 (tests/physics/charging_test.cpp), on an insulating 2:1 prolate to 1e-10
@@ -51,20 +54,20 @@ Vector reaction_rate(const PorationReaction& reaction, const SphereTransform& fi
 SolveReport steady_potentials(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction,
                               double tolerance, std::vector<Vector>& potentials);
 
-/// The charges of a steady state in which V_m is this: σ_k E_k = G_m V_m + J_p.
+/// The charges of a steady state with a given V_m, coefficients [n_coefficients]: σ_k E_k = G_m V_m + J_p.
 /// @throws InputError where there are displacement currents and a fluid insulates
 Unknowns steady_charges(const ChargingMembrane& of, const Vector& potential);
 
 /// The electric state that belongs to charges of the faces and a field.
 struct RelaxingField {
-  Vector potential;       ///< V_m, coefficients
+  Vector potential;       ///< V_m, coefficients [n_coefficients]
   ElectricTraces traces;  ///< the charge in them is [[∂φ/∂n]], no free charge
   SolveReport report;     ///< that of all membranes
 };
 
 /// Solves (½ + ηS′)(C_m V − q_i) − κ D′[V] = κ (E·n − ½ Q/ε_e − S′[Q/ε_e]), η and κ of the permittivities,
 /// Q = q_i + q_e, for V, of several membranes with the layers of all, and with it everything on them.
-/// @param start  first guesses of V; empty ones are zero
+/// @param start  first guesses of V, coefficients [n_coefficients]; empty ones are zero
 /// @returns      traces of membranes of other ranks, see Interaction, are empty
 /// Accuracy: spectral; both rates of a sphere to 1e-9 (tests/physics/charge_relaxation_test.cpp), forces between two
 /// spheres at a gap of half a radius to 1e-7 at p = 16 (tests/physics/coupled_relaxation_test.cpp)
@@ -75,7 +78,7 @@ std::vector<RelaxingField> fields_of_charges(const std::vector<ChargingMembrane>
 
 /// Rates of the charges on material points, over C_m: D q_i/Dt = σ_i E_i − I, D q_e/Dt = −σ_e E_e + I with the current
 /// I through the membrane. No net current leaves a closed membrane on either side.
-/// @param current  outwards, values on the upsampled grid
+/// @param current  I, outwards, values on the upsampled grid, [n_points]
 Unknowns charge_rates(const ChargingMembrane& of, const RelaxingField& field, const Vector& current);
 
 }  // namespace vehd

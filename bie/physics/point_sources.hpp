@@ -19,11 +19,12 @@ struct PointSource {
 /// Fluxes are along the outward normal.
 /// Source: paper Eq. (34)
 struct PointSourceFields {
-  Vector potential_in, potential_out;  ///< values on the upsampled grid
-  Matrix gradient_in, gradient_out;
-  Vector flux_in, flux_out;
+  Vector potential_in, potential_out;  ///< [n_points]
+  Matrix gradient_in, gradient_out;    ///< [n_points x 3]
+  Vector flux_in, flux_out;            ///< [n_points]
 };
 
+/// The exact traces at the points of a surface.
 /// Accuracy: rounding (tests/physics/example1_test.cpp)
 PointSourceFields point_source_fields(const std::vector<PointSource>& sources, const Surface& surface);
 
@@ -35,8 +36,8 @@ struct JumpSolution {
 
 /// Harmonic potentials on both sides with [[φ]] = V_m and [[σ ∂φ/∂n]] = J_m, decaying at infinity:
 /// (½ + ηS′) q = ηD′[V_m] + J_m/(σ_i + σ_e). Fluxes follow from q and their mean S′[q] − D′[V_m].
-/// @param potential     V_m, coefficients of degree p
-/// @param current_jump  J_m, values on the upsampled grid
+/// @param potential     V_m, coefficients [n_coefficients]
+/// @param current_jump  J_m, values on the upsampled grid, [n_points]
 /// @param tolerance     of the solve, see solve_second_kind
 /// Accuracy: that of Example 1, see point_source_errors
 /// Source: paper Eqs. (34), (35)

@@ -21,15 +21,16 @@ double bending_energy_scaled(const Surface& surface);
 
 /// First variation of H at material points for a displacement u: h = ½ Δ_γ u·n − b^ab x_a·∂_b u. The first term is Eq.
 /// (28b), which keeps the metric; the second one is what the change of the metric adds. Without it the implicit
-/// response to an ellipsoidal disturbance of a sphere is twice too stiff. Coefficients from the derivatives of u on the
-/// upsampled grid.
-/// @param to  transform from that grid to the degree of h
+/// response to an ellipsoidal disturbance of a sphere is twice too stiff. Coefficients of h, [n_coefficients].
+/// @param to            transform from the upsampled grid to the degree of h
+/// @param displacement  u with first and second derivatives on the upsampled grid, each [n_points x 3]
 /// Accuracy: spectral; of u = x it is −H to 1e-12, of a rigid motion 0 to 1e-12, differences of H to 1e-6
 /// (tests/physics/bending_test.cpp)
 /// Source: paper Eq. (28b)
 Vector curvature_increment(const Membrane& membrane, const SphereTransform& to, const SphereDerivatives& displacement);
 
-/// −κ_B (Δ_γ h + 2h(H² − K)) n, Eq. (28a), for coefficients h of degree p; values on the upsampled grid.
+/// −κ_B (Δ_γ h + 2h(H² − K)) n, Eq. (28a), values on the upsampled grid.
+/// @param increment  h, coefficients [n_coefficients]
 /// Where κ_B differs from place to place it stands within the Laplacian.
 /// @return  force per area, [n_points x 3]; linear in h, the force itself for the present H
 ///     (tests/physics/bending_test.cpp)

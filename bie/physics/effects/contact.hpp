@@ -17,17 +17,17 @@ struct ContactParameters {
 
 /// One of several membranes.
 struct ContactMembrane {
-  const Matrix& position;  ///< coefficients of x
+  const Matrix& position;  ///< coefficients of x, [n_coefficients x 3]
   const Membrane& membrane;
 };
 
-/// The force −δE/δx of each membrane on the fluid per area, values on its upsampled grid: with W(x) = Σ_b ∫ w dA_b of
-/// all others it is (2HW − ∂W/∂n) n. Membranes that are six ranges apart feel nothing of each other.
+/// The force −δE/δx of each membrane on the fluid per area, values on its upsampled grid, [n_points x 3]: with W(x) =
+/// Σ_b ∫ w dA_b of all others it is (2HW − ∂W/∂n) n. Membranes that are six ranges apart feel nothing of each other.
 /// @throws ConvergenceError where the range is so short that no grid resolves it
 /// Accuracy: quadrature to 1e-9 of the largest force; slope of the energy to 1e-6 (tests/physics/contact_test.cpp)
 std::vector<Matrix> contact_forces(const ContactParameters& contact, const std::vector<ContactMembrane>& membranes);
 
-/// E of all.
+/// The energy E of all pairs.
 /// Accuracy: as the forces
 double contact_energy(const ContactParameters& contact, const std::vector<ContactMembrane>& membranes);
 

@@ -22,7 +22,7 @@ Vector weighted_divergence(const Membrane& membrane, const SphereDerivatives& ve
 
 /// ∫λ dA / ∫dA.
 /// @param fine     degree of λ ↔ points of the surface
-/// @param tension  coefficients
+/// @param tension  λ, coefficients [n_coefficients]
 double mean_tension(const SphereTransform& fine, const Surface& surface, const Vector& tension);
 
 /// The mean of ∇_γ·u over the area: its relative rate of change.
