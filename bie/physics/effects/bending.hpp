@@ -29,9 +29,9 @@ double bending_energy_scaled(const Surface& surface);
 /// Source: paper Eq. (28b)
 Vector curvature_increment(const Membrane& membrane, const SphereTransform& to, const SphereDerivatives& displacement);
 
-/// −κ_B (Δ_γ h + 2h(H² − K)) n, Eq. (28a), values on the upsampled grid.
+/// −κ_B (Δ_γ h + 2h(H² − K)) n, Eq. (28a), values on the upsampled grid. A spatially varying κ_B is inside the
+/// Laplacian.
 /// @param increment  h, coefficients [n_coefficients]
-/// Where κ_B differs from place to place it stands within the Laplacian.
 /// @return  force per area, [n_points x 3]; linear in h, the force itself for the present H
 ///     (tests/physics/bending_test.cpp)
 /// Source: paper Eq. (28a)
