@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/bench/observer.hpp"
+#include "bie/bench/result.hpp"
 #include "bie/support/progress.hpp"
 
 namespace vehd {

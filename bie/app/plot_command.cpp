@@ -5,7 +5,6 @@
 
 #include "bie/app/commands.hpp"
 #include "bie/app/scene_choice.hpp"
-#include "bie/pictures/movie.hpp"
 #include "bie/pictures/plot_sweep.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/support/errors.hpp"
@@ -18,7 +17,6 @@ struct PlotOptions {
   std::string directory;
   std::string output;
   std::string format;
-  std::string field;
   std::vector<std::string> times, columns;
   std::optional<double> border;
   std::string curves;
@@ -27,17 +25,14 @@ struct PlotOptions {
   CommonOptions common;
 };
 
-template <typename Enumeration, typename Names>
-Enumeration named(const std::string& name, const Names& names) {
-  return static_cast<Enumeration>(std::ranges::find(names, name) - names.begin());
-}
-
 PlotTask task_of(const PlotOptions& options) {
   const RunPaths paths{options.directory};
   PlotTask task{paths, options.times, options.output.empty() ? paths.plots() : std::filesystem::path(options.output)};
   task.style = options.style;
-  if (!options.field.empty()) task.style.field = named<ShapeField>(options.field, shape_field_names);
-  if (!options.format.empty()) task.format = named<PictureFormat>(options.format, picture_formats);
+  if (!options.format.empty()) {
+    task.format =
+        static_cast<PictureFormat>(std::ranges::find(picture_formats, options.format) - picture_formats.begin());
+  }
   return task;
 }
 
@@ -99,6 +94,8 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command =
       program.add_subcommand("plot", "Draw pictures of a run: shapes, and histories against time; or of a sweep");
   const auto options = std::make_shared<PlotOptions>();
+  std::vector<std::string> field_names;
+  for (const ShapeField& field : shape_fields) field_names.emplace_back(field.name);
   command->add_option("DIR", options->directory, "Directory of the run or the sweep")->required();
   command
       ->add_option("-o,--output", options->output,
@@ -120,10 +117,10 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
                    "of flow and field if not given")
       ->type_name("VIEW");
   command
-      ->add_option("--field", options->field,
+      ->add_option("--field", options->style.field,
                    "Colours of the shapes; V_m, without it the tension, if not given; force: its magnitude")
       ->type_name("FIELD")
-      ->check(CLI::IsMember(std::vector<std::string>(shape_field_names.begin(), shape_field_names.end())));
+      ->check(CLI::IsMember(field_names));
   command->add_flag("--section", options->style.section,
                     "Leave out the half towards the eye: the cut and the inside of the membrane show");
   command->add_option("--format", options->format, "Of the pictures; png if not given")

@@ -4,7 +4,7 @@
 
 #include "bie/app/commands.hpp"
 #include "bie/app/scene_choice.hpp"
-#include "bie/bench/example1.hpp"
+#include "bie/bench/exact_problems.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/sphere/degrees.hpp"
 

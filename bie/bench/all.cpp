@@ -5,16 +5,8 @@
 
 #include <algorithm>
 
-#include "bie/bench/doc_tables.hpp"
-#include "bie/bench/methods.hpp"
+#include "bie/bench/benches.hpp"
 #include "bie/bench/pages.hpp"
-#include "bie/bench/parts.hpp"
-#include "bie/bench/scenes.hpp"
-#include "bie/bench/space.hpp"
-#include "bie/bench/stability.hpp"
-#include "bie/bench/symmetry.hpp"
-#include "bie/bench/threads.hpp"
-#include "bie/bench/time.hpp"
 #include "bie/comparison/fem_program.hpp"
 #include "bie/estimate/cost.hpp"
 #include "bie/scene/problem.hpp"

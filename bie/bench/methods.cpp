@@ -1,5 +1,3 @@
-#include "bie/bench/methods.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +7,9 @@
 #include <functional>
 #include <utility>
 
-#include "bie/bench/equal_error.hpp"
-#include "bie/bench/example1.hpp"
+#include "bie/bench/benches.hpp"
+#include "bie/bench/exact_problems.hpp"
+#include "bie/bench/shape_flow_problem.hpp"
 #include "bie/comparison/check_input.hpp"
 #include "bie/comparison/fem_program.hpp"
 #include "bie/stepping/space/discretisation.hpp"
@@ -19,6 +18,23 @@
 
 namespace vehd {
 namespace {
+
+/// A sequence of ever finer solutions by one method.
+struct MethodCurve {
+  std::string name;   ///< in the CSV and the JSON
+  std::string label;  ///< in the table and the picture
+};
+
+/// One solution on one core.
+struct MethodLevel {
+  MethodCurve curve;
+  int degree = 0;          ///< of the harmonics, or of the elements
+  int cells_per_edge = 0;  ///< of a block of the mesh; 0 without a mesh
+  std::int64_t unknowns = 0;
+  std::vector<double> seconds;  ///< of the processor, from the shape to the fields on γ; each repeat
+  std::optional<std::int64_t> peak_memory_bytes;
+  MethodError first, second;  ///< of q and f_E, or of v and λ
+};
 
 const MethodCurve bie{"bie", "BIE, degree p rises"};
 const MethodCurve fem_degree{"fem_degree", "FEM, degree k rises"};

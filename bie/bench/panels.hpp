@@ -1,12 +1,38 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "bie/bench/picture.hpp"
-#include "bie/bench/record.hpp"
 
 namespace vehd {
+
+/// A table that a bench has written as CSV, read back: pictures are drawn from it, whenever it was measured.
+class BenchRecord {
+ public:
+  /// @throws InputError if there is no such file, or if a row has other columns than the first line
+  explicit BenchRecord(const std::filesystem::path& csv);
+
+  /// Names of the columns in order.
+  [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
+  [[nodiscard]] bool has(const std::string& column) const;
+  /// Cells of a column, of the rows whose column `key` holds `value`; all rows without a key.
+  [[nodiscard]] std::vector<std::string> texts(const std::string& column, const std::string& key = "",
+                                               const std::string& value = "") const;
+  /// The same as numbers, NaN where a cell is empty.
+  [[nodiscard]] std::vector<double> numbers(const std::string& column, const std::string& key = "",
+                                            const std::string& value = "") const;
+  /// Different cells of a column, in the order in which they come.
+  [[nodiscard]] std::vector<std::string> different(const std::string& column) const;
+
+ private:
+  [[nodiscard]] std::size_t index(const std::string& column) const;
+
+  std::string file_;
+  std::vector<std::string> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
 
 /// Panels of the picture of a bench's table; empty if there is nothing to draw.
 /// @param bench  name of the table's file, see name_of_table

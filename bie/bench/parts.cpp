@@ -1,10 +1,8 @@
-#include "bie/bench/parts.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "bie/bench/input.hpp"
+#include "bie/bench/benches.hpp"
 #include "bie/bench/step_timer.hpp"
 #include "bie/support/machine_peak.hpp"
 #include "bie/support/memory.hpp"

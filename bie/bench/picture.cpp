@@ -9,7 +9,6 @@
 
 #include "bie/bench/plot_axes.hpp"
 #include "bie/pictures/gnuplot.hpp"
-#include "bie/pictures/picture_format.hpp"
 #include "bie/pictures/shown_numbers.hpp"
 
 namespace vehd {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "bie/bench/doc_tables.hpp"
+#include "bie/bench/benches.hpp"
+#include "bie/bench/pages.hpp"
 #include "bie/bench/panels.hpp"
-#include "bie/bench/stability.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 

@@ -1,11 +1,10 @@
-#include "bie/bench/scenes.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 
+#include "bie/bench/benches.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/runs/history.hpp"
 #include "bie/runs/run_loop.hpp"

@@ -1,14 +1,11 @@
-#include "bie/bench/space.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
 
-#include "bie/bench/equal_error.hpp"
-#include "bie/bench/example1.hpp"
-#include "bie/bench/example_prolate.hpp"
+#include "bie/bench/benches.hpp"
+#include "bie/bench/exact_problems.hpp"
 
 namespace vehd {
 namespace {
@@ -56,16 +53,12 @@ BenchTable equal_table(const std::vector<int>& orders, int repeats, BenchTasks& 
                     {"seconds", "seconds", "{:.2g}", true},
                     {"bytes", ""},
                     {"megabytes", "MB", "{:.0f}"}}};
-  const std::array<ExactProblem, 2> problems = {
-      ExactProblem{"f_E, Example 1",
-                   [](int degree) {
-                     const Example1Result r = solve_example1(degree, 1, kSolved);
-                     return SolvedProblem{r.errors.force, r.seconds, r.first_seconds};
-                   }},
-      ExactProblem{"velocity, 2:1 prolate", [](int degree) {
-                     const ProlateResult r = solve_translating_prolate(degree);
-                     return SolvedProblem{r.error, r.seconds, r.first_seconds};
-                   }}};
+  const auto force_of_example1 = [](int degree) {
+    const Example1Result r = solve_example1(degree, 1, kSolved);
+    return SolvedProblem{r.errors.force, r.seconds, r.first_seconds};
+  };
+  const std::array<ExactProblem, 2> problems = {ExactProblem{"f_E, Example 1", force_of_example1},
+                                                ExactProblem{"velocity, 2:1 prolate", solve_translating_prolate}};
   constexpr int kLowest = 4;
   observer.heading(table);
   for (const ExactProblem& problem : problems) {
@@ -111,7 +104,7 @@ BenchResult bench_space(const std::vector<int>& orders, int repeats, BenchObserv
   for (const int order : orders) {
     std::vector<double> electric_seconds, stokes_seconds;
     Example1Result electric;
-    ProlateResult stokes;
+    SolvedProblem stokes;
     while (wants_repeat(electric_seconds, repeats)) {
       tasks.next(fmt::format("p = {}", order));
       electric = solve_example1(order);

@@ -1,11 +1,10 @@
-#include "bie/bench/stability.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "bie/bench/benches.hpp"
 #include "bie/bench/stability_case.hpp"
 #include "bie/files/run_reader.hpp"
 #include "bie/pictures/plots.hpp"

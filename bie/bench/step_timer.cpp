@@ -1,5 +1,8 @@
 #include "bie/bench/step_timer.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 
 #include "bie/bench/assembly_arithmetic.hpp"
@@ -7,6 +10,7 @@
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/time/deferred_correction.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -95,6 +99,17 @@ double seconds_to_the_first_step(const Scene& scene) {
   evolution.evaluate_start();
   (void)evolution.step({{}, evolution.state().time + 1e3 * problem.control.largest});
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Scene with_fixed_steps(Scene scene, const std::string& bench) {
+  if (!scene.numerics.dt) throw InputError(fmt::format("bench {} needs a scene with \"dt\" in [numerics]", bench));
+  scene.numerics.tolerance.reset();
+  return scene;
+}
+
+void require_ascending(const std::string& option, const std::vector<int>& values) {
+  if (std::is_sorted(values.begin(), values.end())) return;
+  throw InputError(fmt::format("{}: {} after a higher one; accepted: ascending", option, values.back()));
 }
 
 }  // namespace vehd

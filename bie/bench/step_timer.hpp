@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bie/scene/problem.hpp"
+#include "bie/scene/scene.hpp"
 #include "bie/support/memory_meter.hpp"
 
 namespace vehd {
@@ -54,5 +55,14 @@ class StepTimer {
 /// solves have learnt nothing yet. Tables of the degree are made before.
 /// @throws ConvergenceError
 double seconds_to_the_first_step(const Scene& scene);
+
+/// The scene with fixed steps: without its tolerance.
+/// @param bench  its name on the command line
+/// @throws InputError if it has no dt
+Scene with_fixed_steps(Scene scene, const std::string& bench);
+
+/// @param option  as on the command line
+/// @throws InputError if a value is below the one before
+void require_ascending(const std::string& option, const std::vector<int>& values);
 
 }  // namespace vehd

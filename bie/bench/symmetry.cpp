@@ -1,8 +1,6 @@
-#include "bie/bench/symmetry.hpp"
-
 #include <fmt/format.h>
 
-#include "bie/bench/input.hpp"
+#include "bie/bench/benches.hpp"
 #include "bie/bench/step_timer.hpp"
 #include "bie/stepping/state/state_difference.hpp"
 #include "bie/support/errors.hpp"

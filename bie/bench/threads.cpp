@@ -1,12 +1,10 @@
-#include "bie/bench/threads.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 #include <thread>
 
-#include "bie/bench/input.hpp"
+#include "bie/bench/benches.hpp"
 #include "bie/bench/step_timer.hpp"
 #include "bie/stepping/state/state_difference.hpp"
 #include "bie/support/thread_count.hpp"

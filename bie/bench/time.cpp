@@ -1,5 +1,3 @@
-#include "bie/bench/time.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "bie/bench/benches.hpp"
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/evaluation/lab_frame_output.hpp"

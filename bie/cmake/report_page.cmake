@@ -1,5 +1,5 @@
-# Writes OUTPUT, a C++ file with the page, style and scripts of FOLDER as strings (bie/pictures/report/page_files.hpp).
-set(text "#include \"bie/pictures/report/page_files.hpp\"\n\nnamespace vehd {\nnamespace {\n")
+# Writes OUTPUT, a C++ file with the page, style and scripts of FOLDER as strings (bie/pictures/report/page_data.hpp).
+set(text "#include \"bie/pictures/report/page_data.hpp\"\n\nnamespace vehd {\nnamespace {\n")
 
 # add_string(name files...): the files one after another.
 macro(add_string name)

@@ -9,9 +9,7 @@
 
 #include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/page.hpp"
-#include "bie/pictures/sweep_axis.hpp"
-#include "bie/pictures/sweep_map.hpp"
-#include "bie/pictures/sweep_panels.hpp"
+#include "bie/pictures/sweep_frame.hpp"
 
 namespace vehd {
 namespace {
@@ -44,10 +42,6 @@ SweepAxis abscissa_axis(const Experiment& experiment) {
   return axis_of_values(measured.abscissa, values, !measured.is_against_time() && least > 0.0 && most > decade * least);
 }
 
-PagePoint point_in(const Box& box, double across, double up) {
-  return {box.left + across * box.width(), box.bottom + up * box.height()};
-}
-
 void draw_data(Page& page, const Part& part, const Box& box) {
   const Experiment& experiment = part.experiment;
   const std::size_t n = experiment.data.size();
@@ -64,13 +58,10 @@ void draw_data(Page& page, const Part& part, const Box& box) {
   std::map<std::string, PageLine> lines;
   for (std::size_t i = 0; i < n; ++i) {
     page.lines.push_back(
-        {{point_in(box, x.places[i], y.places[n + i]), point_in(box, x.places[i], y.places[2 * n + i])},
-         0.75,
-         data_colour,
-         false});
-    page.areas.push_back(sweep_dot(point_in(box, x.places[i], y.places[i]), data_colour));
+        {{box.at(x.places[i], y.places[n + i]), box.at(x.places[i], y.places[2 * n + i])}, 0.75, data_colour, false});
+    page.areas.push_back(sweep_dot(box.at(x.places[i], y.places[i]), data_colour));
     PageLine& line = lines[experiment.measured.is_contour() ? experiment.data[i].at : ""];
-    line.points.push_back(point_in(box, x.places[i], y.places[3 * n + i]));
+    line.points.push_back(box.at(x.places[i], y.places[3 * n + i]));
   }
   for (auto& [frame, line] : lines) {
     std::ranges::stable_sort(line.points, {}, [](const PagePoint& point) { return point[0]; });
@@ -89,9 +80,9 @@ void draw_residuals(Page& page, const Part& part, const Box& box) {
   draw_sweep_frame(page, box, x, y, true);
   const std::size_t n = part.experiment.data.size();
   const double zero = y.places[n + 1];
-  page.lines.push_back({{point_in(box, 0.0, zero), point_in(box, 1.0, zero)}, 1.0, model_colour, false});
+  page.lines.push_back({{box.at(0.0, zero), box.at(1.0, zero)}, 1.0, model_colour, false});
   for (std::size_t i = 0; i < n; ++i) {
-    page.areas.push_back(sweep_dot(point_in(box, x.places[i], y.places[i]), data_colour));
+    page.areas.push_back(sweep_dot(box.at(x.places[i], y.places[i]), data_colour));
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bie/fit/fit.hpp"
-#include "bie/pictures/picture_format.hpp"
+#include "bie/pictures/gnuplot.hpp"
 
 namespace vehd {
 

@@ -14,11 +14,6 @@ constexpr double bar_width = 9.0, tick_length = 3.0, text_size = 7.5, title_size
 /// Of the ends that stand for all values beyond them.
 constexpr double end_height = 7.0;
 
-std::string hex(const Colour& colour) {
-  const auto byte = [](double c) { return static_cast<int>(std::lround(255.0 * c)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(colour[0]), byte(colour[1]), byte(colour[2]));
-}
-
 Image gradient(const ColourMap& colours, int height) {
   // Gnuplot draws no picture of a single column.
   constexpr int width = 2;
@@ -63,14 +58,13 @@ void draw_colour_bar(Page& page, const ColourBar& bar, const ColourMap& colours,
   const double lower = box.bottom + end_height, upper = top - end_height;
   const double left = box.left, right = box.left + bar_width;
   page.images.push_back({gradient(colours, 256), {left, lower, right, upper}});
-  page.lines.push_back(
-      {{{left, lower}, {right, lower}, {right, upper}, {left, upper}, {left, lower}}, 0.4, "#444444", false});
+  page.lines.push_back(frame_of({left, lower, right, upper}, 0.4, "#444444"));
   const double middle = 0.5 * (left + right);
   if (bar.range.below) {
-    page.areas.push_back({{{left, lower}, {right, lower}, {middle, lower - end_height}}, hex(colours.at(0.0))});
+    page.areas.push_back({{{left, lower}, {right, lower}, {middle, lower - end_height}}, hex_of(colours.at(0.0))});
   }
   if (bar.range.above) {
-    page.areas.push_back({{{left, upper}, {right, upper}, {middle, upper + end_height}}, hex(colours.at(1.0))});
+    page.areas.push_back({{{left, upper}, {right, upper}, {middle, upper + end_height}}, hex_of(colours.at(1.0))});
   }
   for (std::size_t i = 0; i < bar.ticks.size(); ++i) {
     const double share = (bar.ticks[i] - bar.range.lower) / (bar.range.upper - bar.range.lower);

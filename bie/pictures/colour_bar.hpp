@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bie/pictures/colour_map.hpp"
-#include "bie/pictures/colour_range.hpp"
+#include "bie/pictures/colours.hpp"
 #include "bie/pictures/page.hpp"
 
 namespace vehd {

@@ -1,11 +1,10 @@
-#include "bie/pictures/movie.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 
+#include "bie/pictures/plots.hpp"
 #include "bie/pictures/shape_times.hpp"
 #include "bie/runs/run_files.hpp"
 #include "bie/support/child_process.hpp"
@@ -37,8 +36,11 @@ void run_ffmpeg(std::vector<std::string> arguments, const std::filesystem::path&
   }
 }
 
-}  // namespace
-
+/// Writes an MP4 of so many pictures that plays in about ten seconds.
+/// @param draw      called once for each of them; all have one size
+/// @param file      replaced when the movie is complete
+/// @param progress  is told of every picture
+/// @throws InputError if ffmpeg is missing or reports an error
 void write_movie(std::size_t n_frames, const FrameDrawer& draw, const std::filesystem::path& file, Progress& progress) {
   const TemporaryFolder folder("vehd-movie");
   // Better known before minutes of drawing than after.
@@ -58,6 +60,8 @@ void write_movie(std::size_t n_frames, const FrameDrawer& draw, const std::files
              folder.path());
   replace_file(file, text_of_file(folder.path() / movie));
 }
+
+}  // namespace
 
 std::filesystem::path plot_movie(const PlotTask& task, Progress& progress) {
   ReadingNotes notes;

@@ -63,6 +63,12 @@ std::string area_script(const PageArea& area) {
 
 }  // namespace
 
+PageLine frame_of(const Box& box, double width, const std::string& colour) {
+  PageLine frame{box.corners(), width, colour, false};
+  frame.points.push_back(frame.points.front());
+  return frame;
+}
+
 double text_width(std::string_view enhanced) {
   double width = 0.0;
   bool is_literal = false;

@@ -6,11 +6,13 @@
 #include <string_view>
 #include <vector>
 
-#include "bie/pictures/picture_format.hpp"
+#include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/renderer.hpp"
 
 /// A picture whose every part has a known place, in points (1/72 inch) from the lower left corner.
 namespace vehd {
+
+using PagePoint = std::array<double, 2>;
 
 /// Sides of an upright rectangle.
 struct Box {
@@ -24,9 +26,15 @@ struct Box {
   [[nodiscard]] bool holds(const Box& other) const {
     return left <= other.left && other.right <= right && bottom <= other.bottom && other.top <= top;
   }
+  /// A point of it by its shares of the width and of the height.
+  [[nodiscard]] PagePoint at(double across, double up) const {
+    return {left + across * width(), bottom + up * height()};
+  }
+  /// From the lower left one round.
+  [[nodiscard]] std::vector<PagePoint> corners() const {
+    return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
+  }
 };
-
-using PagePoint = std::array<double, 2>;
 
 enum class TextAnchor { left, centre, right };
 
@@ -65,6 +73,9 @@ struct Page {
   std::vector<PageLine> lines{};
   std::vector<PageText> texts{};
 };
+
+/// The sides of a box as a line.
+PageLine frame_of(const Box& box, double width, const std::string& colour);
 
 /// Room that a line of text takes at most in the font of the pictures (DejaVu Sans), in units of its size.
 double text_width(std::string_view enhanced);

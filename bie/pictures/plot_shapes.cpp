@@ -13,6 +13,7 @@
 #include "bie/runs/given_times.hpp"
 #include "bie/runs/run_files.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
@@ -47,29 +48,29 @@ std::vector<std::string> time_texts(std::vector<double> times, const OutputUnits
 }
 
 /// @param range  of the field, in numbers of the scene
-void colour_shapes(ShapesPicture& picture, ShapeField field, const ColourRange& range, const OutputUnits& units) {
-  if (field == ShapeField::none) {
+void colour_shapes(ShapesPicture& picture, const ShapeField& field, const ColourRange& range,
+                   const OutputUnits& units) {
+  if (field.values == ShapeField::Values::none) {
     // The middle of the diverging colours: white.
     picture.colours = ColourMap::diverging();
     for (Shape& shape : picture.shapes) shape.mesh.shade = Vector::Constant(shape.values.size(), 0.5);
     return;
   }
-  const FieldLabel label = label_of(field);
-  const ShownUnit unit = shown_unit(units, label.dimension);
+  const ShownUnit unit = shown_unit(units, field.dimension);
   ColourRange shown = range;
   shown.lower *= unit.factor;
   shown.upper *= unit.factor;
-  picture.bar = colour_bar(shown, std::string(label.text), unit.unit);
+  picture.bar = colour_bar(shown, std::string(field.text), unit.unit);
   picture.colours = range.both_signs ? ColourMap::diverging() : ColourMap::sequential();
   for (Shape& shape : picture.shapes) {
     shape.mesh.shade = (shape.values.array() - range.lower) / (range.upper - range.lower);
   }
 }
 
-ColourRange range_of(const std::vector<Shape>& shapes, ShapeField field) {
+ColourRange range_of(const std::vector<Shape>& shapes, const ShapeField& field) {
   std::vector<FieldReach> reaches;
   for (const Shape& shape : shapes) reaches.push_back(reach_of(shape.values, shape.weights));
-  return robust_range(reaches, label_of(field).sign_matters);
+  return robust_range(reaches, field.sign_matters);
 }
 
 /// From the middle of a shape to a wall that is seen edge on, and not farther than the shape is large.
@@ -159,6 +160,10 @@ Matrix3 view_of(const ShapesStyle& style, const Scene& scene, const Shape& first
   return style.view.empty() ? default_view(scene, first.gyration) : parse_view(style.view);
 }
 
+const ShapeField& field_of(const ShapesStyle& style, const RunSnapshot& first) {
+  return style.field.empty() ? default_field(first) : shape_field(style.field);
+}
+
 std::vector<SnapshotChoice> without_repeats(const std::vector<SnapshotChoice>& all) {
   std::vector<SnapshotChoice> shapes;
   for (const SnapshotChoice& choice : all) {
@@ -198,7 +203,7 @@ PlotResult plot_shapes(const PlotTask& task, const PictureFile& file) {
   const Scene scene = read_scene_of(run);
   const OutputUnits units = units_of_run(task.paths, scene.units, result.notes);
   const std::vector<SnapshotChoice> choices = shapes_to_plot(task, run);
-  const ShapeField field = task.style.field.value_or(default_field(run.snapshot(choices.front().snapshot)));
+  const ShapeField& field = field_of(task.style, run.snapshot(choices.front().snapshot));
   ShapesPicture picture;
   std::vector<double> times;
   for (const SnapshotChoice& choice : choices) {
@@ -223,7 +228,7 @@ FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::
   const Scene scene = read_scene_of(run);
   ReadingNotes notes;
   const OutputUnits units = units_of_run(task.paths, scene.units, notes);
-  const ShapeField field = task.style.field.value_or(default_field(run.snapshot(snapshots.front())));
+  const ShapeField& field = field_of(task.style, run.snapshot(snapshots.front()));
   // For what all frames share a coarse grid is enough.
   constexpr int coarse_order = 24;
   std::vector<ShapeCoefficients> read;
@@ -252,6 +257,23 @@ FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::
     colour_shapes(drawn, field, range, units);
     draw_page(page_of(drawn, scene, style), {picture, PictureFormat::png});
   };
+}
+
+void require_run(const RunPaths& paths) {
+  if (!std::filesystem::exists(paths.snapshots())) {
+    throw InputError(fmt::format("{}: holds no run (no run.h5)", paths.directory.string()));
+  }
+}
+
+PlotResult plot_run(const PlotTask& task) {
+  require_run(task.paths);
+  make_directory(task.output);
+  const auto file = [&](const char* stem) {
+    return PictureFile{task.output / fmt::format("{}.{}", stem, name_of(task.format)), task.format};
+  };
+  PlotResult result = plot_shapes(task, file("shapes"));
+  if (plot_history(task, file("history"))) result.pictures.push_back(file("history").path);
+  return result;
 }
 
 }  // namespace vehd

@@ -7,12 +7,12 @@
 #include <limits>
 
 #include "bie/pictures/page.hpp"
-#include "bie/pictures/sweep_axis.hpp"
+#include "bie/pictures/sweep_frame.hpp"
 #include "bie/pictures/sweep_map.hpp"
 #include "bie/pictures/sweep_means.hpp"
-#include "bie/pictures/sweep_panels.hpp"
 #include "bie/scene/nearest_name.hpp"
 #include "bie/scene/output_units.hpp"
+#include "bie/support/csv.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -23,7 +23,7 @@ constexpr const char *line_colour = "#1f5fa8", *stopped_colour = "#9a9a9a";
 
 std::vector<std::string> plain_names(const SweepRows& rows) {
   std::vector<std::string> names;
-  for (const std::string& header : rows.columns) names.push_back(header.substr(0, header.find(" [")));
+  for (const std::string& header : rows.columns) names.push_back(header_parts(header).first);
   return names;
 }
 
@@ -44,20 +44,9 @@ std::vector<std::size_t> wanted_columns(const SweepPlotTask& task, const SweepRo
   return wanted;
 }
 
-std::vector<double> numbers_of_column(const SweepRows& rows, std::size_t column) {
-  std::vector<double> numbers;
-  for (std::size_t row = 0; row < rows.n_rows(); ++row) numbers.push_back(rows.number(row, column));
-  return numbers;
-}
-
 /// Where the meaning of a column changes within its values.
 std::optional<double> border_among(const std::vector<double>& numbers, const std::string& header) {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const double number : numbers) {
-    if (!std::isfinite(number)) continue;
-    least = std::min(least, number);
-    most = std::max(most, number);
-  }
+  const auto [least, most] = finite_range(numbers);
   const auto border = usual_border(header, least, most);
   return border && least < *border && *border < most ? border : std::nullopt;
 }
@@ -65,7 +54,7 @@ std::optional<double> border_among(const std::vector<double>& numbers, const std
 void draw_line_panel(Page& page, const SweepRows& rows, std::size_t column, const SweepAxis& x, const Box& box,
                      std::optional<double> border) {
   const std::string& header = rows.columns[column];
-  std::vector<double> numbers = numbers_of_column(rows, column);
+  std::vector<double> numbers = rows.numbers(column);
   if (!border) border = border_among(numbers, header);
   // The axis has it in its range and knows its place.
   if (border) numbers.push_back(*border);
@@ -89,7 +78,7 @@ void draw_line_panel(Page& page, const SweepRows& rows, std::size_t column, cons
       end_line();
       continue;
     }
-    const PagePoint at{box.left + x.places[row] * box.width(), box.bottom + y.places[row] * box.height()};
+    const PagePoint at = box.at(x.places[row], y.places[row]);
     line.points.push_back(at);
     page.areas.push_back(sweep_dot(at, rows.is_completed(row) ? line_colour : stopped_colour));
   }

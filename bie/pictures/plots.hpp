@@ -7,18 +7,19 @@
 #include <vector>
 
 #include "bie/files/snapshot_choice.hpp"
-#include "bie/pictures/picture_format.hpp"
+#include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/shape_field.hpp"
 #include "bie/runs/run_directory.hpp"
+#include "bie/support/progress.hpp"
 
 namespace vehd {
 
 /// How shapes are shown.
 struct ShapesStyle {
-  std::string view{};                 ///< see parse_view; empty: across the plane of flow and field
-  std::optional<ShapeField> field{};  ///< of the colours; absent: default_field
-  bool section = false;               ///< without the half towards the eye
-  double width = 510.0;               ///< of the page in points, at most
+  std::string view{};    ///< see parse_view; empty: across the plane of flow and field
+  std::string field{};   ///< of the colours, a name of shape_fields; empty: default_field
+  bool section = false;  ///< without the half towards the eye
+  double width = 510.0;  ///< of the page in points, at most
 };
 
 /// Which pictures are drawn, and where they go.
@@ -69,5 +70,10 @@ using FrameDrawer = std::function<void(std::size_t i, const std::filesystem::pat
 /// @param snapshots  one for each picture; each is read once, here
 /// @throws InputError
 FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::vector<std::size_t>& snapshots);
+
+/// The movie of a run, OUTPUT/movie.mp4, of all snapshots or of many of them, evenly spread.
+/// @return the movie
+/// @throws InputError if the run cannot be read, or gnuplot or ffmpeg is missing
+std::filesystem::path plot_movie(const PlotTask& task, Progress& progress);
 
 }  // namespace vehd

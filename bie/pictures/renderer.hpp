@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bie/pictures/colour_map.hpp"
+#include "bie/pictures/colours.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {

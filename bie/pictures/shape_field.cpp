@@ -19,67 +19,29 @@ namespace {
 constexpr std::array forces = {std::pair{"force_bending", 1.0}, std::pair{"force_tension", 1.0},
                                std::pair{"force_electric", -1.0}, std::pair{"force_contact", 1.0}};
 
-/// Datasets of the real and of the imaginary part.
-std::array<std::string_view, 2> parts_of(ShapeField field) {
-  if (field == ShapeField::charge_amplitude) return {"q_real", "q_imaginary"};
-  return {"Vm_real", "Vm_imaginary"};
-}
+using Values = ShapeField::Values;
 
-bool is_of_amplitude(ShapeField field) {
-  return field == ShapeField::potential_amplitude || field == ShapeField::potential_phase ||
-         field == ShapeField::charge_amplitude;
-}
-
-bool has(const RunSnapshot& snapshot, ShapeField field) {
-  switch (field) {
-    case ShapeField::potential:
-      return snapshot.has_field("Vm");
-    case ShapeField::charge:
-      return snapshot.has_field("q");
-    case ShapeField::tension:
-    case ShapeField::poration:
-    case ShapeField::conductance:
-    case ShapeField::capacitance:
-    case ShapeField::pump_current:
-    case ShapeField::bending_modulus:
-    case ShapeField::spontaneous_curvature:
-      return snapshot.has_field(std::string(label_of(field).dataset));
-    case ShapeField::potential_amplitude:
-    case ShapeField::potential_phase:
-    case ShapeField::charge_amplitude:
-      return snapshot.has_field(std::string(parts_of(field).front()));
-    case ShapeField::force:
-      return std::ranges::any_of(forces, [&](const auto& force) { return snapshot.has_field(force.first); });
-    case ShapeField::none:
-    case ShapeField::curvature:
-      break;
+bool has(const RunSnapshot& snapshot, const ShapeField& field) {
+  if (field.values == Values::force) {
+    return std::ranges::any_of(forces, [&](const auto& force) { return snapshot.has_field(force.first); });
   }
-  return true;
+  return field.datasets[0].empty() || snapshot.has_field(std::string(field.datasets[0]));
 }
 
-Vector values_of(const VesicleCoefficients& read, ShapeField field, const SphereTransform& transform,
+Vector values_of(const VesicleCoefficients& read, const ShapeField& field, const SphereTransform& transform,
                  const Surface& surface) {
-  switch (field) {
-    case ShapeField::potential:
-    case ShapeField::charge:
-    case ShapeField::tension:
-    case ShapeField::poration:
-    case ShapeField::conductance:
-    case ShapeField::capacitance:
-    case ShapeField::pump_current:
-    case ShapeField::bending_modulus:
-    case ShapeField::spontaneous_curvature:
-      return transform.synthesize(read.field).col(0);
-    case ShapeField::force:
-    case ShapeField::potential_amplitude:
-    case ShapeField::charge_amplitude:
-      return transform.synthesize(read.field).rowwise().norm();
-    case ShapeField::potential_phase:
-      return phases_deg(transform.synthesize(read.field));
-    case ShapeField::curvature:
-      return surface.mean_curvature;
-    case ShapeField::none:
+  switch (field.values) {
+    case Values::none:
       break;
+    case Values::curvature:
+      return surface.mean_curvature;
+    case Values::dataset:
+      return transform.synthesize(read.field).col(0);
+    case Values::force:
+    case Values::amplitude:
+      return transform.synthesize(read.field).rowwise().norm();
+    case Values::phase:
+      return phases_deg(transform.synthesize(read.field));
   }
   return Vector::Zero(surface.n_points());
 }
@@ -95,76 +57,40 @@ Matrix with_mean_poles(const Matrix& values, int n_phi) {
 
 }  // namespace
 
-FieldLabel label_of(ShapeField field) {
-  switch (field) {
-    case ShapeField::potential:
-      return {"V_m", "potential", "Vm", true};
-    case ShapeField::charge:
-      return {"q", "potential/length", "q", true};
-    case ShapeField::tension:
-      return {"tension λ", "force/length", "tension"};
-    case ShapeField::force:
-      return {"force |f|", "force/area"};
-    case ShapeField::curvature:
-      return {"curvature H", "1/length"};
-    case ShapeField::potential_amplitude:
-      return {"|V_m|", "potential"};
-    case ShapeField::potential_phase:
-      return {"phase of V_m (degrees)", "1"};
-    case ShapeField::charge_amplitude:
-      return {"|q|", "potential/length"};
-    case ShapeField::poration:
-      return {"X, or ln(N/N₀)", "1", "poration"};
-    case ShapeField::conductance:
-      return {"G_m", "conductance/area", "conductance"};
-    case ShapeField::capacitance:
-      return {"C_m", "capacitance/area", "capacitance"};
-    case ShapeField::pump_current:
-      return {"J_p", "current/area", "pump_current"};
-    case ShapeField::bending_modulus:
-      return {"κ_B", "energy", "bending_modulus"};
-    case ShapeField::spontaneous_curvature:
-      return {"c", "1/length", "spontaneous_curvature"};
-    case ShapeField::none:
-      break;
-  }
-  return {"", "1"};
+const ShapeField& shape_field(std::string_view name) {
+  return *std::ranges::find(shape_fields, name, &ShapeField::name);
 }
 
-ShapeField default_field(const RunSnapshot& snapshot) {
-  for (const ShapeField field : {ShapeField::potential, ShapeField::potential_amplitude, ShapeField::tension}) {
-    if (has(snapshot, field)) return field;
+const ShapeField& default_field(const RunSnapshot& snapshot) {
+  for (const char* name : {"V_m", "V_m_amplitude", "tension"}) {
+    if (has(snapshot, shape_field(name))) return shape_field(name);
   }
-  return ShapeField::curvature;
+  return shape_field("curvature");
 }
 
-void require_field(const RunSnapshot& snapshot, ShapeField field) {
+void require_field(const RunSnapshot& snapshot, const ShapeField& field) {
   if (has(snapshot, field)) return;
   std::vector<std::string_view> present;
-  for (std::size_t i = 0; i < shape_field_names.size(); ++i) {
-    if (has(snapshot, static_cast<ShapeField>(i))) present.push_back(shape_field_names[i]);
+  for (const ShapeField& other : shape_fields) {
+    if (has(snapshot, other)) present.push_back(other.name);
   }
-  throw InputError(fmt::format("--field {}: {} has none; accepted: {}",
-                               shape_field_names[static_cast<std::size_t>(field)], snapshot.name(),
-                               fmt::join(present, ", ")));
+  throw InputError(
+      fmt::format("--field {}: {} has none; accepted: {}", field.name, snapshot.name(), fmt::join(present, ", ")));
 }
 
 namespace {
 
-VesicleCoefficients read_vesicle(const RunSnapshot& snapshot, ShapeField field, std::size_t vesicle) {
+VesicleCoefficients read_vesicle(const RunSnapshot& snapshot, const ShapeField& field, std::size_t vesicle) {
   VesicleCoefficients read{snapshot.coefficients("x", 3, vesicle), {}};
-  if (const std::string_view dataset = label_of(field).dataset; !dataset.empty()) {
-    read.field = snapshot.coefficients(std::string(dataset), 1, vesicle);
+  const Index n = read.position.rows();
+  for (const std::string_view dataset : field.datasets) {
+    if (dataset.empty()) continue;
+    read.field.conservativeResize(n, read.field.cols() + 1);
+    read.field.rightCols<1>() = snapshot.coefficients(std::string(dataset), 1, vesicle);
   }
-  if (is_of_amplitude(field)) {
-    const auto [real, imaginary] = parts_of(field);
-    read.field.resize(read.position.rows(), 2);
-    read.field << snapshot.coefficients(std::string(real), 1, vesicle),
-        snapshot.coefficients(std::string(imaginary), 1, vesicle);
-  }
-  if (field == ShapeField::force) {
+  if (field.values == Values::force) {
     // The whole force of the membrane on the fluid.
-    read.field = Matrix::Zero(read.position.rows(), 3);
+    read.field = Matrix::Zero(n, 3);
     for (const auto& [name, sign] : forces) {
       if (snapshot.has_field(name)) read.field += sign * snapshot.coefficients(name, 3, vesicle);
     }
@@ -173,7 +99,7 @@ VesicleCoefficients read_vesicle(const RunSnapshot& snapshot, ShapeField field, 
 }
 
 /// One vesicle where it is.
-Shape shape_of(const VesicleCoefficients& read, ShapeField field, int grid_order) {
+Shape shape_of(const VesicleCoefficients& read, const ShapeField& field, int grid_order) {
   const Matrix& position = read.position;
   const int order = order_of(position.rows());
   const SphereTransform transform(order, make_grid(std::max(grid_order, order)));
@@ -208,13 +134,13 @@ void append(Shape& shape, const Shape& other) {
 
 }  // namespace
 
-ShapeCoefficients read_shape(const RunSnapshot& snapshot, ShapeField field) {
+ShapeCoefficients read_shape(const RunSnapshot& snapshot, const ShapeField& field) {
   ShapeCoefficients read{snapshot.time(), {}};
   for (std::size_t a = 0; a < snapshot.n_vesicles(); ++a) read.vesicles.push_back(read_vesicle(snapshot, field, a));
   return read;
 }
 
-Shape shape_of(const ShapeCoefficients& read, ShapeField field, int grid_order) {
+Shape shape_of(const ShapeCoefficients& read, const ShapeField& field, int grid_order) {
   Shape shape;
   for (const VesicleCoefficients& vesicle : read.vesicles) append(shape, shape_of(vesicle, field, grid_order));
   shape.time = read.time;

@@ -11,55 +11,50 @@
 namespace vehd {
 
 /// Field shown by the colours of a shape.
-enum class ShapeField {
-  none,
-  potential,
-  charge,
-  tension,
-  force,
-  curvature,
-  potential_amplitude,
-  potential_phase,
-  charge_amplitude,
-  poration,
-  conductance,
-  capacitance,
-  pump_current,
-  bending_modulus,
-  spontaneous_curvature
+struct ShapeField {
+  enum class Values {
+    none,
+    curvature,
+    force,      ///< size of the sum of all forces
+    dataset,    ///< those of one dataset
+    amplitude,  ///< |z| of two datasets, its real and imaginary part
+    phase       ///< arg z of them, in degrees
+  };
+
+  std::string_view name;  ///< on the command line
+  Values values;
+  std::string_view text{};                     ///< in pictures
+  std::string_view dimension = "1";            ///< by its name in scene/units.hpp
+  std::array<std::string_view, 2> datasets{};  ///< in run.h5; empty of what has none
+  bool sign_matters = false;                   ///< even where the values of a run have one sign alone
 };
 
-/// Their names on the command line.
-constexpr std::array<std::string_view, 15> shape_field_names = {"none",
-                                                                "V_m",
-                                                                "q",
-                                                                "tension",
-                                                                "force",
-                                                                "curvature",
-                                                                "V_m_amplitude",
-                                                                "V_m_phase",
-                                                                "q_amplitude",
-                                                                "poration",
-                                                                "conductance",
-                                                                "capacitance",
-                                                                "pump_current",
-                                                                "bending_modulus",
-                                                                "spontaneous_curvature"};
+/// All of them. A new one is a row here.
+constexpr std::array shape_fields = {
+    ShapeField{"none", ShapeField::Values::none},
+    ShapeField{"V_m", ShapeField::Values::dataset, "V_m", "potential", {"Vm"}, true},
+    ShapeField{"q", ShapeField::Values::dataset, "q", "potential/length", {"q"}, true},
+    ShapeField{"tension", ShapeField::Values::dataset, "tension λ", "force/length", {"tension"}},
+    ShapeField{"force", ShapeField::Values::force, "force |f|", "force/area"},
+    ShapeField{"curvature", ShapeField::Values::curvature, "curvature H", "1/length"},
+    ShapeField{"V_m_amplitude", ShapeField::Values::amplitude, "|V_m|", "potential", {"Vm_real", "Vm_imaginary"}},
+    ShapeField{"V_m_phase", ShapeField::Values::phase, "phase of V_m (degrees)", "1", {"Vm_real", "Vm_imaginary"}},
+    ShapeField{"q_amplitude", ShapeField::Values::amplitude, "|q|", "potential/length", {"q_real", "q_imaginary"}},
+    ShapeField{"poration", ShapeField::Values::dataset, "X, or ln(N/N₀)", "1", {"poration"}},
+    ShapeField{"conductance", ShapeField::Values::dataset, "G_m", "conductance/area", {"conductance"}},
+    ShapeField{"capacitance", ShapeField::Values::dataset, "C_m", "capacitance/area", {"capacitance"}},
+    ShapeField{"pump_current", ShapeField::Values::dataset, "J_p", "current/area", {"pump_current"}},
+    ShapeField{"bending_modulus", ShapeField::Values::dataset, "κ_B", "energy", {"bending_modulus"}},
+    ShapeField{"spontaneous_curvature", ShapeField::Values::dataset, "c", "1/length", {"spontaneous_curvature"}}};
 
-/// How a field is called in pictures.
-struct FieldLabel {
-  std::string_view text;
-  std::string_view dimension;  ///< by its name in scene/units.hpp
-  std::string_view dataset{};  ///< in run.h5; empty of a computed field
-  bool sign_matters = false;   ///< even where the values of a run have one sign alone
-};
-FieldLabel label_of(ShapeField field);
+/// @param name  of one of them
+const ShapeField& shape_field(std::string_view name);
 
 /// V_m, or its amplitude in an averaged field, without it the tension, without that the curvature.
-ShapeField default_field(const RunSnapshot& snapshot);
+const ShapeField& default_field(const RunSnapshot& snapshot);
 
 /// @throws InputError that names the fields of the snapshot, if it does not have the dataset
-void require_field(const RunSnapshot& snapshot, ShapeField field);
+void require_field(const RunSnapshot& snapshot, const ShapeField& field);
 
 /// One snapshot with all its vesicles, the centroid of their membranes together in the origin.
 struct Shape {
@@ -83,10 +78,10 @@ struct ShapeCoefficients {
   double time = 0.0;
   std::vector<VesicleCoefficients> vesicles;
 };
-ShapeCoefficients read_shape(const RunSnapshot& snapshot, ShapeField field);
+ShapeCoefficients read_shape(const RunSnapshot& snapshot, const ShapeField& field);
 
 /// @param field  that was read
 /// @param grid_order  degree of the grid that is drawn, at least that of the snapshot
-Shape shape_of(const ShapeCoefficients& read, ShapeField field, int grid_order);
+Shape shape_of(const ShapeCoefficients& read, const ShapeField& field, int grid_order);
 
 }  // namespace vehd

@@ -35,7 +35,8 @@ std::vector<std::size_t> spread_evenly(std::size_t n, std::size_t most) {
 }
 
 Vector outline_of(const RunReader& run, std::size_t snapshot) {
-  const Shape shape = shape_of(read_shape(run.snapshot(snapshot), ShapeField::none), ShapeField::none, outline_order);
+  const ShapeField& none = shape_field("none");
+  const Shape shape = shape_of(read_shape(run.snapshot(snapshot), none), none, outline_order);
   const Vector shares = shape.weights / shape.weights.sum();
   Vector outline(4 * n_directions);
   for (int i = 0; i < n_directions; ++i) {

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <set>
+
+#include "bie/pictures/gnuplot.hpp"
 
 namespace vehd {
 namespace {
@@ -29,6 +33,23 @@ double round_below(double length) {
     if (factor * power <= length * rounding) return factor * power;
   }
   return power;
+}
+
+std::pair<double, double> finite_range(const std::vector<double>& values) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  return {least, most};
+}
+
+double room_around_constant(double least, double most) {
+  constexpr double rounding = 1e-9;
+  const double size = std::max(std::abs(least), std::abs(most));
+  if (most - least > rounding * size) return 0.0;
+  return size > 0.0 ? 0.1 * size : 1.0;
 }
 
 std::vector<double> round_ticks(double lower, double upper, int least) {
@@ -95,6 +116,56 @@ ShownUnit shown_unit(const OutputUnits& units, std::string_view dimension) {
   const OutputUnit length = units.of("length");
   if (dimension == "1/length" && length.is_si()) return {1.0 / length.factor, "1/" + printed_unit(length.symbol)};
   return {};
+}
+
+namespace {
+
+struct LabelRow {
+  std::string_view name, label;
+};
+
+constexpr std::array key_rows = {LabelRow{"electric.conductivity_in", "conductivity inside σ_i"},
+                                 LabelRow{"electric.conductivity_out", "conductivity outside σ_e"},
+                                 LabelRow{"electric.permittivity", "permittivity ε"},
+                                 LabelRow{"electric.waveform.frequency", "frequency"},
+                                 LabelRow{"flow.rate", "shear rate"},
+                                 LabelRow{"fluid.viscosity", "viscosity μ_e"},
+                                 LabelRow{"fluid.viscosity_ratio", "viscosity ratio μ_i/μ_e"},
+                                 LabelRow{"membrane.bending_modulus", "bending modulus κ_B"},
+                                 LabelRow{"membrane.capacitance", "capacitance C_m"},
+                                 LabelRow{"membrane.conductance", "conductance G_m"},
+                                 LabelRow{"shape.reduced_volume", "reduced volume"},
+                                 LabelRow{"suspension.volume_fraction", "volume fraction"}};
+
+constexpr std::array column_rows = {LabelRow{"aspect_ratio_field", "aspect ratio along the field"},
+                                    LabelRow{"bending_energy_scaled", "bending energy ∫H² dγ"},
+                                    LabelRow{"effective_viscosity_intrinsic", "intrinsic viscosity [η]"},
+                                    LabelRow{"inclination_deg", "inclination (degrees)"},
+                                    LabelRow{"tension_integral", "tension ∫λ dγ"},
+                                    LabelRow{"Vm_max", "largest |V_m|"},
+                                    LabelRow{"Vm_north", "V_m at the north pole"},
+                                    LabelRow{"q_north", "q at the north pole"}};
+
+template <std::size_t kRows>
+std::string_view label_among(const std::array<LabelRow, kRows>& rows, std::string_view name) {
+  const auto* const row = std::ranges::find(rows, name, &LabelRow::name);
+  return row == rows.end() ? std::string_view{} : row->label;
+}
+
+}  // namespace
+
+std::string key_label(std::string_view key) {
+  const std::string_view label = label_among(key_rows, key);
+  return label.empty() ? gnuplot_literal(std::string(key)) : std::string(label);
+}
+
+std::string column_title(std::string_view column) {
+  std::string title(label_among(column_rows, column));
+  if (title.empty()) {
+    title = column;
+    std::ranges::replace(title, '_', ' ');
+  }
+  return title;
 }
 
 }  // namespace vehd

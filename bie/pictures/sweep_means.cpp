@@ -9,11 +9,10 @@
 #include <limits>
 
 #include "bie/pictures/gnuplot.hpp"
-#include "bie/pictures/labels.hpp"
 #include "bie/pictures/page.hpp"
-#include "bie/pictures/sweep_axis.hpp"
+#include "bie/pictures/shown_numbers.hpp"
+#include "bie/pictures/sweep_frame.hpp"
 #include "bie/pictures/sweep_map.hpp"
-#include "bie/pictures/sweep_panels.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -80,12 +79,10 @@ void draw_panel(Page& page, const SweepRows& rows, const std::vector<std::size_t
     PageLine line{{}, 1.3, colour, false};
     for (std::size_t i = 0; i < n; ++i) {
       if (means[i].n_runs == 0 || (means[i].values.size() > 1 && means[i].values[1] != series[s])) continue;
-      const double across = box.left + x.places[i] * box.width();
-      const auto height = [&](std::size_t place) { return box.bottom + y.places[place] * box.height(); };
-      const PagePoint at{across, height(n + i)};
-      line.points.push_back(at);
-      page.areas.push_back(sweep_dot(at, colour));
-      page.lines.push_back({{{across, height(i)}, {across, height(2 * n + i)}}, 1.0, colour, false});
+      const auto at = [&](std::size_t place) { return box.at(x.places[i], y.places[place]); };
+      line.points.push_back(at(n + i));
+      page.areas.push_back(sweep_dot(at(n + i), colour));
+      page.lines.push_back({{at(i), at(2 * n + i)}, 1.0, colour, false});
     }
     std::ranges::sort(line.points);
     if (line.points.size() > 1) page.lines.push_back(std::move(line));

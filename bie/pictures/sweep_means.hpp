@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bie/pictures/picture_format.hpp"
+#include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/sweep_rows.hpp"
 
 namespace vehd {

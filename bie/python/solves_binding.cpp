@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "bie/bench/example1.hpp"
+#include "bie/bench/exact_problems.hpp"
 #include "bie/physics/charge_density.hpp"
 #include "bie/python/arrays.hpp"
 #include "bie/python/bindings.hpp"

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "bie/bench/doc_tables.hpp"
 #include "bie/bench/pages.hpp"
 #include "bie/bench/step_timer.hpp"
 #include "bie/scene/reader.hpp"

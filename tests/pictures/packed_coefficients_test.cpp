@@ -6,8 +6,6 @@
 #include <limits>
 #include <string>
 
-#include "bie/pictures/report/base64.hpp"
-
 namespace {
 
 std::string base64_of(const std::string& text) {

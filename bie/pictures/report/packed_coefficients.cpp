@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
+#include <string_view>
 
-#include "bie/pictures/report/base64.hpp"
 #include "bie/sphere/harmonics.hpp"
 
 namespace vehd {
@@ -32,11 +33,7 @@ void PackedCoefficients::add(const Matrix& coefficients) {
 
 nlohmann::json PackedCoefficients::json() const {
   nlohmann::json scales = nlohmann::json::array();
-  for (const std::vector<double>& of_time : scales_) {
-    nlohmann::json row = nlohmann::json::array();
-    for (const double scale : of_time) row.push_back(rounded_for_page(scale));
-    scales.push_back(std::move(row));
-  }
+  for (const std::vector<double>& of_time : scales_) scales.push_back(rounded_for_page(of_time));
   return {{"scale", std::move(scales)}, {"data", base64(bytes_)}};
 }
 
@@ -45,6 +42,26 @@ std::size_t packed_bytes(int order) { return static_cast<std::size_t>(n_coeffici
 nlohmann::json rounded_for_page(double value) {
   if (!std::isfinite(value)) return nullptr;
   return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+}
+
+nlohmann::json rounded_for_page(const std::vector<double>& values) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const double value : values) list.push_back(rounded_for_page(value));
+  return list;
+}
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t j = 0; j < 3; ++j) group = (group << 8U) | (i + j < bytes.size() ? bytes[i + j] : 0U);
+    for (std::size_t j = 0; j < 4; ++j) {
+      text += i + j <= bytes.size() ? letters[(group >> (18U - 6U * j)) & 63U] : '=';
+    }
+  }
+  return text;
 }
 
 }  // namespace vehd

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "bie/support/types.hpp"
@@ -29,5 +31,9 @@ std::size_t packed_bytes(int order);
 
 /// The value to six significant digits: enough for a picture. JSON null if it is no number.
 nlohmann::json rounded_for_page(double value);
+nlohmann::json rounded_for_page(const std::vector<double>& values);
+
+/// Bytes as text of letters, digits, + and /, padded with = (RFC 4648).
+std::string base64(std::span<const std::uint8_t> bytes);
 
 }  // namespace vehd

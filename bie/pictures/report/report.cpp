@@ -9,15 +9,11 @@
 #include <utility>
 
 #include "bie/files/versions.hpp"
-#include "bie/pictures/colour_map.hpp"
-#include "bie/pictures/report/history_data.hpp"
-#include "bie/pictures/report/page_files.hpp"
-#include "bie/pictures/report/scene_data.hpp"
-#include "bie/pictures/report/surface_data.hpp"
-#include "bie/pictures/report/verdict_data.hpp"
+#include "bie/pictures/colours.hpp"
+#include "bie/pictures/plots.hpp"
+#include "bie/pictures/report/page_data.hpp"
 #include "bie/runs/run_files.hpp"
 #include "bie/scene/output_units.hpp"
-#include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 #include "bie/support/progress.hpp"
 
@@ -29,32 +25,20 @@ std::string name_of(const RunPaths& paths) {
   return (directory.has_filename() ? directory : directory.parent_path()).filename().string();
 }
 
+std::string with_letter_as(const std::string& text, char letter, std::string_view other) {
+  std::string result;
+  for (const char of_text : text) of_text == letter ? result += other : result += of_text;
+  return result;
+}
+
 /// Text between tags.
 std::string html_text(const std::string& text) {
-  std::string result;
-  for (const char letter : text) {
-    if (letter == '<') {
-      result += "&lt;";
-    } else if (letter == '&') {
-      result += "&amp;";
-    } else {
-      result += letter;
-    }
-  }
-  return result;
+  return with_letter_as(with_letter_as(text, '&', "&amp;"), '<', "&lt;");
 }
 
 /// JSON within a script element, which the first "</" would end.
 std::string json_within_page(const nlohmann::json& json) {
-  std::string result;
-  for (const char letter : json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
-    if (letter == '<') {
-      result += "\\u003c";
-    } else {
-      result += letter;
-    }
-  }
-  return result;
+  return with_letter_as(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), '<', "\\u003c");
 }
 
 /// The page with what stands for each place; what is put in is not searched again.
@@ -119,9 +103,7 @@ nlohmann::json facts_of(const nlohmann::json& summary, const HistoryTable& histo
 }  // namespace
 
 ReportSize write_report(const ReportTask& task) {
-  if (!std::filesystem::exists(task.paths.snapshots())) {
-    throw InputError(fmt::format("{}: holds no run (no run.h5)", task.paths.directory.string()));
-  }
+  require_run(task.paths);
   ReportSize size;
   const RunReader run = read_snapshots(task.paths.snapshots(), size.notes);
   run.require_one_vesicle("vehd report");

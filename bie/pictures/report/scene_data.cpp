@@ -1,11 +1,10 @@
-#include "bie/pictures/report/scene_data.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 
 #include "bie/pictures/report/packed_coefficients.hpp"
+#include "bie/pictures/report/page_data.hpp"
 #include "bie/scene/dimensionless_groups.hpp"
 #include "bie/scene/effective_scene.hpp"
 #include "bie/scene/model_of.hpp"

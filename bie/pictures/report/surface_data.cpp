@@ -1,12 +1,11 @@
-#include "bie/pictures/report/surface_data.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "bie/geometry/surface.hpp"
-#include "bie/pictures/colour_range.hpp"
+#include "bie/pictures/colours.hpp"
 #include "bie/pictures/report/packed_coefficients.hpp"
+#include "bie/pictures/report/page_data.hpp"
 #include "bie/pictures/shape_field.hpp"
 #include "bie/pictures/shape_times.hpp"
 #include "bie/sphere/harmonics.hpp"
@@ -20,13 +19,13 @@ constexpr std::size_t most_surface_bytes = 8'000'000;
 /// Extremes of a surface are read off a grid of this degree or of twice its own.
 constexpr int least_extreme_grid = 31;
 /// What the page can colour the vesicle by.
-constexpr std::array page_fields = {ShapeField::potential, ShapeField::charge, ShapeField::tension};
+constexpr std::array page_fields = {"V_m", "q", "tension"};
 
-std::string dataset_of(ShapeField field) { return std::string(label_of(field).dataset); }
+std::string dataset_of(const char* field) { return std::string(shape_field(field).datasets[0]); }
 
 std::size_t n_components(const RunSnapshot& snapshot) {
   return 3 + static_cast<std::size_t>(std::ranges::count_if(
-                 page_fields, [&](ShapeField field) { return snapshot.has_field(dataset_of(field)); }));
+                 page_fields, [&](const char* field) { return snapshot.has_field(dataset_of(field)); }));
 }
 
 /// One field at all times.
@@ -46,16 +45,10 @@ struct FieldOverTime {
   }
 };
 
-nlohmann::json rounded_list(const std::vector<double>& values) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const double value : values) list.push_back(rounded_for_page(value));
-  return list;
-}
-
-nlohmann::json field_data(const FieldLabel& field, const FieldOverTime& values, const std::string& unit) {
+nlohmann::json field_data(const ShapeField& field, const FieldOverTime& values, const std::string& unit) {
   const ColourRange range = robust_range(values.reaches, field.sign_matters);
   nlohmann::json json = values.coefficients.json();
-  json["name"] = field.dataset;
+  json["name"] = field.datasets[0];
   json["label"] = field.text;
   json["unit"] = unit;
   for (const FieldReach& reach : values.reaches) {
@@ -89,7 +82,7 @@ nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>
   double radius = 0.0;
   const OutputUnit time = units.of("time"), length = units.of("length");
   std::array<OutputUnit, page_fields.size()> field_units;
-  for (std::size_t i = 0; i < page_fields.size(); ++i) field_units[i] = units.of(label_of(page_fields[i]).dimension);
+  for (std::size_t i = 0; i < page_fields.size(); ++i) field_units[i] = units.of(shape_field(page_fields[i]).dimension);
   for (const std::size_t number : snapshots) {
     const RunSnapshot snapshot = run.snapshot(number);
     Matrix x = snapshot.coefficients("x", 3) * length.factor;
@@ -102,7 +95,7 @@ nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>
     const Matrix points = with_poles(surface.position, x);
     radius = std::max(radius, points.rowwise().norm().maxCoeff());
     const Eigen::RowVector3d extents = points.colwise().maxCoeff() - points.colwise().minCoeff();
-    json["extents"].push_back(rounded_list({extents.begin(), extents.end()}));
+    json["extents"].push_back(rounded_for_page(std::vector<double>(extents.begin(), extents.end())));
     json["times"].push_back(rounded_for_page(snapshot.time() * time.factor));
     json["degrees"].push_back(order);
     for (std::size_t i = 0; i < page_fields.size(); ++i) {
@@ -118,7 +111,7 @@ nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>
   for (std::size_t i = 0; i < page_fields.size(); ++i) {
     // A field of some times alone has no place on a slider through all of them.
     if (fields[i].reaches.size() != snapshots.size()) continue;
-    json["fields"].push_back(field_data(label_of(page_fields[i]), fields[i], printed_unit(field_units[i].symbol)));
+    json["fields"].push_back(field_data(shape_field(page_fields[i]), fields[i], printed_unit(field_units[i].symbol)));
   }
   return json;
 }

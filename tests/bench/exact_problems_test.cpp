@@ -1,4 +1,4 @@
-#include "bie/bench/equal_error.hpp"
+#include "bie/bench/exact_problems.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

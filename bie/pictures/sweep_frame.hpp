@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "bie/pictures/page.hpp"
+
 namespace vehd {
 
 /// A tick of an axis.
@@ -28,5 +30,27 @@ SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& 
 
 /// Of numbers with some room at both ends; NaN has no place.
 SweepAxis axis_of_numbers(const std::string& label, const std::vector<double>& values);
+
+/// A page of line plots of one size, two beside each other.
+struct SweepPanels {
+  Page page;
+
+  explicit SweepPanels(std::size_t count);
+  /// The frame of one of them.
+  [[nodiscard]] Box box(std::size_t panel) const;
+
+ private:
+  std::size_t across_;
+};
+
+/// A point of a plot as an octagon.
+PageArea sweep_dot(const PagePoint& at, const char* colour);
+
+/// Label of a column: "time (ms)" of "time [ms]".
+std::string column_label(const std::string& header);
+
+/// The frame of a plot with ticks, the label of x below and that of y above its left corner.
+/// @param grid  whether pale lines go through the ticks
+void draw_sweep_frame(Page& page, const Box& box, const SweepAxis& x, const SweepAxis& y, bool grid);
 
 }  // namespace vehd

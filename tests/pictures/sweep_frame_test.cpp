@@ -1,4 +1,4 @@
-#include "bie/pictures/sweep_axis.hpp"
+#include "bie/pictures/sweep_frame.hpp"
 
 #include <fmt/format.h>
 

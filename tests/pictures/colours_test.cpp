@@ -1,4 +1,4 @@
-#include "bie/pictures/colour_range.hpp"
+#include "bie/pictures/colours.hpp"
 
 #include <boost/test/unit_test.hpp>
 

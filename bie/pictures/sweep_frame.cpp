@@ -1,19 +1,19 @@
-#include "bie/pictures/sweep_axis.hpp"
+#include "bie/pictures/sweep_frame.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "bie/pictures/gnuplot.hpp"
-#include "bie/pictures/labels.hpp"
 #include "bie/pictures/shown_numbers.hpp"
-#include "bie/pictures/sweep_panels.hpp"
 #include "bie/scene/output_units.hpp"
 #include "bie/scene/units.hpp"
+#include "bie/support/csv.hpp"
 
 namespace vehd {
 namespace {
@@ -142,19 +142,69 @@ SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& 
 }
 
 SweepAxis axis_of_numbers(const std::string& label, const std::vector<double>& values) {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    least = std::min(least, value);
-    most = std::max(most, value);
-  }
+  const auto [least, most] = finite_range(values);
   if (!std::isfinite(least)) return {label, values, {}};
-  // Rounding of a constant is no change.
-  constexpr double rounding = 1e-9, room = 0.06;
-  const double size = std::max(std::abs(least), std::abs(most));
-  double about = room * (most - least);
-  if (most - least <= rounding * size) about = size > 0.0 ? 0.1 * size : 1.0;
+  constexpr double room = 0.06;
+  const double constant = room_around_constant(least, most);
+  const double about = constant > 0.0 ? constant : room * (most - least);
   return between(label, values, least - about, most + about);
+}
+
+namespace {
+
+constexpr double sweep_panel_width = 255.0, sweep_panel_height = 172.0;
+
+constexpr double sweep_text = 8.0, sweep_tick = 3.0;
+
+/// As an area: lines would lie above the points.
+void draw_pale_line(Page& page, const Box& line) { page.areas.push_back({line.corners(), "#e4e4e4"}); }
+
+}  // namespace
+
+SweepPanels::SweepPanels(std::size_t count) : across_(count > 1 ? 2 : 1) {
+  const std::size_t down = (count + across_ - 1) / across_;
+  page.width = sweep_panel_width * static_cast<double>(across_);
+  page.height = sweep_panel_height * static_cast<double>(down);
+}
+
+Box SweepPanels::box(std::size_t panel) const {
+  const double left = sweep_panel_width * static_cast<double>(panel % across_);
+  const double top = page.height - sweep_panel_height * static_cast<double>(panel / across_);
+  return {left + 46.0, top - sweep_panel_height + 34.0, left + sweep_panel_width - 16.0, top - 24.0};
+}
+
+PageArea sweep_dot(const PagePoint& at, const char* colour) {
+  constexpr double radius = 1.7;
+  PageArea area{{}, colour};
+  for (int i = 0; i < 8; ++i) {
+    const double angle = std::numbers::pi / 4.0 * (i + 0.5);
+    area.points.push_back({at[0] + radius * std::cos(angle), at[1] + radius * std::sin(angle)});
+  }
+  return area;
+}
+
+std::string column_label(const std::string& header) {
+  const auto [name, unit] = header_parts(header);
+  return with_unit(column_title(name), unit);
+}
+
+void draw_sweep_frame(Page& page, const Box& box, const SweepAxis& x, const SweepAxis& y, bool grid) {
+  for (const SweepTick& tick : x.ticks) {
+    const double place = box.left + tick.place * box.width();
+    if (grid) draw_pale_line(page, {place - 0.25, box.bottom, place + 0.25, box.top});
+    page.lines.push_back({{{place, box.bottom}, {place, box.bottom - sweep_tick}}, 0.5, "#000000", false});
+    page.texts.push_back({tick.text, {place, box.bottom - 9.0}, sweep_text, TextAnchor::centre, "#000000"});
+  }
+  for (const SweepTick& tick : y.ticks) {
+    const double place = box.bottom + tick.place * box.height();
+    if (grid) draw_pale_line(page, {box.left, place - 0.25, box.right, place + 0.25});
+    page.lines.push_back({{{box.left, place}, {box.left - sweep_tick, place}}, 0.5, "#000000", false});
+    page.texts.push_back({tick.text, {box.left - sweep_tick - 2.0, place}, sweep_text, TextAnchor::right, "#000000"});
+  }
+  page.lines.push_back(frame_of(box, 0.6, "#000000"));
+  page.texts.push_back(
+      {x.label, {0.5 * (box.left + box.right), box.bottom - 23.0}, sweep_text, TextAnchor::centre, "#000000"});
+  page.texts.push_back({y.label, {box.left - 30.0, box.top + 10.0}, sweep_text, TextAnchor::left, "#000000"});
 }
 
 }  // namespace vehd
