@@ -30,6 +30,7 @@ double implicit_step(const TimeSteps& steps);
 ///
 /// The first step is a Runge–Kutta rule of order 2 with two stages, at t + 2Δt/3 and t + Δt/3, whose implicit steps
 /// have the same size, so that one matrix serves all; E of the start stands for that of the first step.
+/// @param start  V at the beginning, of any length
 /// @throws std::invalid_argument unless there is a step
 /// Accuracy: order 2 in Δt, for any stiff F that decays (tests/fem_check/backward_differentiation_test.cpp)
 /// Source: Hairer and Wanner, Solving Ordinary Differential Equations II, III.1 and IV.6

@@ -45,10 +45,12 @@ class CellPoints {
 
   /// Goes to points of a cell; several times faster where all lie on one face.
   void reinit(unsigned cell, const std::vector<UnitPoint>& units);
-  [[nodiscard]] Vectors positions() const;
+  [[nodiscard]] Vectors positions() const;                   ///< [3 x n_points]
   [[nodiscard]] Matrix3 jacobian(Eigen::Index point) const;  ///< ∂x/∂unit
+  /// A field at the points, [n_points], from its nodal values on all ranks.
   [[nodiscard]] Vector values(const dealii::Vector<double>& nodal);
-  [[nodiscard]] Vectors gradients(const dealii::Vector<double>& nodal);  ///< [3 x n_points]
+  /// Its gradient there, [3 x n_points].
+  [[nodiscard]] Vectors gradients(const dealii::Vector<double>& nodal);
 
  private:
   void evaluate(const dealii::Vector<double>& nodal, dealii::EvaluationFlags::EvaluationFlags what);

@@ -55,11 +55,11 @@ class FlowSolution {
 
   /// Traces at points of γ.
   [[nodiscard]] FlowTraces on_surface(const SurfacePoints& points) const;
-  /// v at points of the volume.
+  /// v at points of the volume, [3 x points.size()].
   [[nodiscard]] Vectors velocity(const VolumePoints& points) const;
-  /// Pressure, zero far away.
+  /// Pressure at points of the volume, [points.size()], zero far away.
   [[nodiscard]] Vector pressure(const VolumePoints& points) const;
-  /// What the solve took.
+  /// Cost of the solve.
   [[nodiscard]] const Cost& cost() const;
   /// For solvers that begin from it.
   [[nodiscard]] const Data& data() const { return *data_; }

@@ -23,10 +23,11 @@ class InverseRoot {
     int number = 0, of = 1;
   };
 
+  /// @param stiffness, mass    K and M, [nodes x nodes]
   /// @param smallest, largest  bounds of the eigenvalues of M⁻¹K
   InverseRoot(const Matrix& stiffness, const Matrix& mass, double smallest, double largest, Share share);
 
-  /// The solutions of this share; those of all shares add up to the result.
+  /// Sum of this share's solutions for x, both [nodes]; the sum over all shares is the result.
   [[nodiscard]] Vector apply(const Vector& x) const;
 
  private:

@@ -15,7 +15,8 @@ PerVesicle<double> membrane_coefficient(const PotentialProblem& problem, int n_v
 /// Whether nothing but the problem's own value fixes the mean of V_m on a vesicle.
 bool mean_is_free(const PotentialProblem& problem, int vesicle);
 
-/// C_m V/τ at points of γ, of the V given there.
+/// C_m V/τ at points of γ, [points.size()].
+/// @param voltage  V there, likewise
 Vector stored_current(const ChargingMembrane& charging, const SurfacePoints& points, Vector voltage);
 
 /// Ties on γ and values that would float.

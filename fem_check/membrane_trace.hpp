@@ -14,6 +14,7 @@ class MembraneTrace {
   MembraneTrace(const Space& space, int points_per_edge);
 
   [[nodiscard]] const SheetPairs& pairs() const { return pairs_; }
+  /// Number of pairs, and of trace functions.
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(pairs_.pairs.size()); }
   /// Positions (and directions) of the nodes, in the order of the pairs.
   [[nodiscard]] const SurfacePoints& nodes() const { return nodes_; }
@@ -26,11 +27,13 @@ class MembraneTrace {
   /// Weights of the rule on one face.
   [[nodiscard]] auto weights(int face) const { return rule_.weight.segment(face * shape_.rows(), shape_.rows()); }
 
-  /// ∫_γ f w dA for every trace function w, f given at the points of the rule.
+  /// ∫_γ f w dA for every trace function w, [size()].
+  /// @param f  at the points of the rule, [rule().size()]
   [[nodiscard]] Vector integrate(const Vector& f) const;
-  /// Nodal values of the trace function whose products with all w are given.
+  /// Nodal values, [size()], of the trace function f with given ∫_γ f w dA for every w, [size()].
   [[nodiscard]] Vector project(const Vector& functional) const;
-  /// Values of a trace function, given by its nodal values, at points of γ.
+  /// Values of a trace function at points of γ, [points.size()].
+  /// @param nodal  its nodal values, [size()]
   [[nodiscard]] Vector evaluate(const Vector& nodal, const SurfacePoints& points) const;
 
  private:

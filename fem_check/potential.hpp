@@ -89,9 +89,9 @@ class PotentialSolution {
 
   /// Traces at points of γ.
   [[nodiscard]] PotentialTraces on_surface(const SurfacePoints& points) const;
-  /// φ at points of the volume.
+  /// φ at points of the volume, [points.size()].
   [[nodiscard]] Vector potential(const VolumePoints& points) const;
-  /// What the solve took.
+  /// Cost of the solve.
   [[nodiscard]] const Cost& cost() const;
   /// For solvers that begin from it.
   [[nodiscard]] const Data& data() const { return *data_; }
@@ -100,7 +100,8 @@ class PotentialSolution {
   std::shared_ptr<const Data> data_;
 };
 
-/// @param start  what the linear solver begins from, on the same mesh with elements of any degree; null: zero
+/// Solves the problem by the weak form.
+/// @param start  start of the linear solver, on the same mesh with elements of any degree; null: zero
 /// @throws std::invalid_argument if a conductivity, conductance, capacitance or time step is out of range
 /// @throws SolveError if the linear solver does not converge
 /// Accuracy: φ and V_m of order degree + 1, fluxes of order degree (tests/fem_check/convergence_test.cpp)
@@ -119,16 +120,17 @@ class ChargingSteps {
   ChargingSteps(ChargingSteps&&) noexcept;
   ChargingSteps& operator=(ChargingSteps&&) noexcept;
 
-  /// V_m with C_m (V_m − from)/τ + G_m V_m = −σ_i ∂φ_i/∂n, τ the time step of the problem.
-  /// @param from   at the points of the rule
+  /// V_m at the points of the rule, [rule().size()], with C_m (V_m − from)/τ + G_m V_m = −σ_i ∂φ_i/∂n, τ the time step
+  /// of the problem.
+  /// @param from   at the points of the rule, [rule().size()]
   /// @param field  E_∞ at the end of the step
-  /// @throws SolveError, std::invalid_argument for another number of values
+  /// @throws SolveError if the linear solver does not converge, std::invalid_argument for another number of values
   Vector step(const Vector& from, const Vector3& field);
   /// Gauss points of γ.
   [[nodiscard]] const SurfacePoints& rule() const;
-  /// Of values at the rule, as a trace function at other points of γ.
+  /// A function given at the rule, [rule().size()], as a trace function at other points of γ, [points.size()].
   [[nodiscard]] Vector at(const SurfacePoints& points, const Vector& values) const;
-  /// What the steps so far took.
+  /// Cost of the steps so far.
   [[nodiscard]] const Cost& cost() const;
 
  private:

@@ -17,7 +17,7 @@ struct PotentialSolution::Data {
   Vector current;                ///< σ_i ∂φ_i/∂n at the nodes of γ, L2 projection of the residual of one side
   Cost cost;
 
-  /// What V_m is more than v − ψ.
+  /// V_m − (v − ψ) at points of γ, [points.size()].
   [[nodiscard]] Vector background(const SurfacePoints& points) const {
     Vector result = (points.position.colwise() - space->centre).transpose() * problem.field;
     for (Eigen::Index i = 0; i < result.size(); ++i) result[i] += constant[points.vesicle[i]];
@@ -25,7 +25,7 @@ struct PotentialSolution::Data {
   }
 };
 
-/// V_m as the unknowns have it.
+/// V_m from the unknowns at points of γ, [points.size()].
 Vector membrane_voltage(const PotentialSolution::Data& data, const SurfacePoints& points);
 
 }  // namespace vehd::fem_check

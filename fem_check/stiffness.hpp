@@ -50,7 +50,7 @@ class Stiffness : public dealii::Subscriptor {
 
   /// Adds scale · Σ coefficient ∫ ∇u·∇w for nodal values u known on all ranks, tied nodes as they are.
   void add_cells(Distributed& to, double scale, const dealii::Vector<double>& u) const;
-  /// ∫ ∇u·∇w over one side for the trace functions w of that side: one value per pair, on all ranks.
+  /// ∫ ∇u·∇w over one side for the trace functions w of that side: [pairs], on all ranks.
   [[nodiscard]] Vector flux_functional(const dealii::Vector<double>& u, Side side) const;
   /// Adds values at nodes to the free degrees of freedom that stand for them.
   void add_at(Distributed& to, const std::vector<DofIndex>& dofs, const Vector& values) const;

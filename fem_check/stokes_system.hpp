@@ -49,9 +49,9 @@ class StokesSystem {
   /// @throws SolveError if they do not get there
   void solve(const Blocks& right_side, double tolerance, Blocks& solution, Cost& cost) const;
 
-  /// Nodal values of a velocity component on all ranks.
+  /// Nodal values of a velocity component, [degrees of freedom], on all ranks.
   [[nodiscard]] dealii::Vector<double> velocity(const Blocks& solution, unsigned component) const;
-  /// Nodal values of the pressure on all ranks, in the user's unit.
+  /// Nodal values of the pressure, [degrees of freedom], on all ranks, in the user's unit.
   [[nodiscard]] dealii::Vector<double> pressure(const Blocks& solution) const;
 
   [[nodiscard]] const Viscosities& viscosities() const;

@@ -42,7 +42,7 @@ FaceShape face_shape(int degree, const Eigen::Matrix2Xd& points);
 /// The nodes themselves, in the order of FaceNodes::of_face.
 Eigen::Matrix2Xd face_node_points(int degree);
 
-/// A nodal function at the nodes of another degree on the same faces.
+/// A nodal function, [nodes of from], at the nodes of another degree on the same faces, [nodes of to].
 Vector interpolated(const Vector& nodal, const FaceNodes& from, const FaceNodes& to);
 
 /// Geometry of one face at the points of a rule.

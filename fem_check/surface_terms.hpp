@@ -26,9 +26,9 @@ class OuterSphere {
   /// ∫ w (n_b ∂_a u − n_a ∂_b u) dA, derivatives along the sphere: antisymmetric. At the rim of a half sphere what this
   /// leaves out of all pairs of components together is along w × u and the rim, nothing for flows along a wall.
   [[nodiscard]] Eigen::SparseMatrix<double> rotation(unsigned a, unsigned b) const;
-  /// ∫ f w dA for every node, f given at places as users know them.
+  /// ∫ f w dA for every node, [size()], f a function of places as users know them.
   [[nodiscard]] Vector integrate(const std::function<double(const Vector3&)>& f) const;
-  /// The same of many functions, [nodes x functions].
+  /// ∫ f w dA of many functions, [size() x functions].
   /// @param values  [functions x points] from the places of points
   [[nodiscard]] Eigen::MatrixXd moments(const std::function<Eigen::MatrixXd(const Vectors&)>& values) const;
 

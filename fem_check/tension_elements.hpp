@@ -26,11 +26,12 @@ class TensionElements {
   /// ∫ χ χ' dA and ∫ ∇_γχ·∇_γχ' dA.
   [[nodiscard]] const SurfaceMatrix& mass() const { return mass_; }
   [[nodiscard]] const SurfaceMatrix& stiffness() const { return stiffness_; }
-  /// ∫ χ ∇_γ·(A x) dA.
+  /// ∫ χ ∇_γ·(A x) dA, [tension nodes].
   [[nodiscard]] Vector divergence_of_linear_flow(const Matrix3& gradient) const;
-  /// λ less its mean over γ.
+  /// λ minus its mean over γ, nodal values [tension nodes].
   [[nodiscard]] Vector without_mean(const Vector& tension) const;
-  /// λ at points of γ.
+  /// λ at points of γ, [points.size()].
+  /// @param tension  nodal values, [tension nodes]
   [[nodiscard]] Vector evaluate(const Vector& tension, const SurfacePoints& points) const;
 
   /// √(∫(H − H̄)² dA / ∫H² dA) of the mesh, 0 on a sphere: how much of the force of a constant tension, 2λH n, is more

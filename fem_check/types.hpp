@@ -41,7 +41,9 @@ struct SurfacePoints {
   Eigen::Matrix2Xd face_coordinates;  ///< in [0, 1]² of that face
 
   [[nodiscard]] Eigen::Index size() const { return position.cols(); }
+  /// θ of each point, [size()].
   [[nodiscard]] Vector theta() const;
+  /// φ of each point, [size()].
   [[nodiscard]] Vector phi() const;
   /// Numbers of the points on one membrane.
   [[nodiscard]] std::vector<Eigen::Index> of_vesicle(int number) const;
@@ -59,7 +61,7 @@ struct VolumePoints {
   [[nodiscard]] Eigen::Index size() const { return position.cols(); }
 };
 
-/// Fields given on γ: one value (column) for each point asked for.
+/// Fields given on γ: [points.size()] values, or [3 x points.size()].
 using ScalarOnSurface = std::function<Vector(const SurfacePoints&)>;
 using VectorOnSurface = std::function<Vectors(const SurfacePoints&)>;
 

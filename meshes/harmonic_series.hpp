@@ -31,7 +31,7 @@ class HarmonicSeries {
   [[nodiscard]] Eigen::MatrixXd values(const Eigen::Matrix3Xd& directions) const;
   /// Gradient on the unit sphere, [n_columns x 3]: row c is the tangential vector ∇f_c in Cartesian components.
   [[nodiscard]] Eigen::MatrixXd gradient(const Point& direction) const;
-  /// value() and gradient() from one pass over the harmonics.
+  /// value() and gradient() from one pass over the harmonics, in the shapes of theirs.
   void value_and_gradient(const Point& direction, Eigen::VectorXd& value, Eigen::MatrixXd& gradient) const;
 
  private:
