@@ -38,6 +38,7 @@ struct FaceShape {
   Eigen::MatrixXd value;
   std::array<Eigen::MatrixXd, 2> derivative;  ///< by either face coordinate
 };
+/// The nodal functions of a degree at points of the unit square.
 FaceShape face_shape(int degree, const Eigen::Matrix2Xd& points);
 /// The nodes themselves, in the order of FaceNodes::of_face.
 Eigen::Matrix2Xd face_node_points(int degree);
@@ -66,6 +67,7 @@ class SurfaceElements {
   [[nodiscard]] const FaceShape& shape() const { return shape_; }
   /// Points of the rule in the unit square, first coordinate fastest.
   [[nodiscard]] const Eigen::Matrix2Xd& rule() const { return rule_; }
+  /// Geometry of a face at the points of the rule, for given positions of all nodes, [3 x nodes].
   [[nodiscard]] FacePatch patch(int face, const Vectors& positions) const;
 
  private:

@@ -47,7 +47,10 @@ class Lattice {
     Point value;
     Matrix3 derivative;
   };
+  /// Both at a place of the block.
+  /// @param nodal  [3 x nodes]
   [[nodiscard]] Sample sample(const Eigen::Matrix3Xd& nodal, const BlockPlace& place) const;
+  /// The value alone.
   [[nodiscard]] Point value(const Eigen::Matrix3Xd& nodal, const BlockPlace& place) const;
 
  private:

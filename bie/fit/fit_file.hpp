@@ -20,9 +20,10 @@ struct FitFile {
 /// are values that all scenes accept.
 /// @throws InputError "file:line: what is wrong, the value, what is accepted"
 FitFile read_fit(const std::filesystem::path& path);
-/// The same for text in memory.
+/// read_fit for text in memory.
 /// @param name    stands for the file in messages
 /// @param folder  where relative paths start
+/// @throws InputError as read_fit
 FitFile parse_fit(const std::string& text, const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace vehd

@@ -15,11 +15,13 @@ FieldOf<Scalar> mapped(const Map& map, const FieldOf<Scalar>& field) {
   return from_parts<Scalar>(map(parts_of(field)));
 }
 
+/// Values on the upsampled grid, [n_points], from coefficients, [n_coefficients].
 template <typename Scalar>
 FieldOf<Scalar> values_of(const Membrane& membrane, const FieldOf<Scalar>& coefficients) {
   return mapped<Scalar>([&](const Matrix& parts) -> Matrix { return membrane.fine.synthesize(parts); }, coefficients);
 }
 
+/// Coefficients, [n_coefficients], from values on the upsampled grid, [n_points].
 template <typename Scalar>
 FieldOf<Scalar> coefficients_of(const Membrane& membrane, const FieldOf<Scalar>& values) {
   return mapped<Scalar>([&](const Matrix& parts) -> Matrix { return membrane.fine.analyze(parts); }, values);

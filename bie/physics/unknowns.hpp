@@ -19,6 +19,7 @@ struct Unknowns {
 
 /// y += weight x.
 void axpy(double weight, const Unknowns& x, Unknowns& y);
+/// a − b, member by member.
 Unknowns operator-(const Unknowns& a, const Unknowns& b);
 
 }  // namespace vehd

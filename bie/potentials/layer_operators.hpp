@@ -95,7 +95,7 @@ class ScalarOperator {
   /// The potential of every column of the density.
   /// @param density  [n_coefficients x n_fields], f or J f as LayerOperators says
   /// @return         [n_coefficients x n_fields]
-  /// @throws ShapeError if the density has fewer coefficients than the operator
+  /// @throws ShapeError if the density has another number of coefficients
   [[nodiscard]] Matrix apply(const Matrix& density) const;
 
  private:
@@ -128,7 +128,7 @@ class StokesOperator {
   /// @param density  J f of the force per area for the single layer, the velocity for the double layer,
   ///     [n_coefficients x 3]
   /// @return         velocity, [n_coefficients x 3]
-  /// @throws ShapeError if the density has fewer coefficients than the operator
+  /// @throws ShapeError if the density has not three columns, or fewer coefficients than the operator
   [[nodiscard]] Matrix apply(const Matrix& density) const;
   /// The operator between some entries of the column-major [n_coefficients x 3], row: velocity, column: density.
   /// @param n_coefficients  of each component

@@ -124,7 +124,8 @@ class HistoryTable {
   /// Reads rows that match their checksums; a part of a row at the end, which a kill can leave, is left out.
   /// @throws InputError "file:line: ..."
   explicit HistoryTable(const std::filesystem::path& path);
-  /// The same from any stream; `name` stands for the file in messages.
+  /// Reads a table from any stream; `name` stands for the file in messages.
+  /// @throws InputError "name:line: ..."
   HistoryTable(std::istream& stream, std::string name);
   /// One without rows and without a file.
   HistoryTable(const OutputUnits& units, HistoryKind kind);

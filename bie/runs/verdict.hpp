@@ -18,12 +18,13 @@ struct TrustLimit {
   double largest;
 };
 
-/// What a scene asks of the numbers of its run.
+/// Properties of a scene that determine the limits of its verdict.
 struct TrustDemands {
   std::optional<double> tolerance{};  ///< which the share left out by the degree must keep; none: fixed steps
   bool keeps_area = true;             ///< every membrane is inextensible
   bool porates = false;               ///< it conducts more where it is porated
 };
+/// The properties of a scene.
 TrustDemands trust_demands(const Scene& scene);
 
 /// All that are judged in this way.

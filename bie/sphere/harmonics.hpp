@@ -24,7 +24,9 @@ int order_of(Index n_coefficients);
 Matrix resize_order(const Matrix& coefficients, int order);
 
 /// Values at arbitrary points: [n_points x n_fields] from coefficients [(p+1)² x n_fields].
-/// θ = 0 and π are allowed. Cost O(n_points p²).
+/// @param theta, phi  in radians, [n_points] each; θ = 0 and π are allowed
+/// @throws ShapeError if the number of rows is not (p + 1)², or theta and phi differ in length
+/// Cost O(n_points p²).
 /// Accuracy: rounding; low degrees are the written formulas to 1e-14 (tests/sphere/transform_test.cpp)
 /// Source: paper Eqs. (16), (17)
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi);
@@ -32,6 +34,7 @@ Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi, int azimuthal_order);
 /// [n_points x n_fields] in given directions.
 /// @param directions  [n_points x 3], of any length but zero
+/// @throws ShapeError if there are not three columns
 Matrix evaluate_harmonics(const Matrix& coefficients, const Matrix& directions, int azimuthal_order);
 
 }  // namespace vehd

@@ -9,8 +9,8 @@ namespace vehd {
 ///
 /// α(σ) = A/A_0 − 1 = k_BT/(8πκ_c) ln(1 + c σ A_0/κ_c) + σ/K_A, c = 0.1.
 ///
-/// At σ = −κ_c/(c A_0), where the logarithm ends, a compressed membrane buckles: however small its area is, the tension
-/// stays above.
+/// At σ = −κ_c/(c A_0), where the logarithm diverges, a compressed membrane buckles: however small its area is, the
+/// tension stays above.
 /// Accuracy: rounding; tension and area are inverse to 1e-12 (tests/physics/undulations_test.cpp)
 /// Source: Evans and Rawicz 1990, with c of a closed vesicle
 class AreaLaw {
@@ -20,7 +20,7 @@ class AreaLaw {
   [[nodiscard]] double rest_area() const { return rest_area_; }
   /// A of a tension above the least one.
   [[nodiscard]] double area(double tension) const;
-  /// dA/dσ there.
+  /// dA/dσ at a tension above the least one.
   [[nodiscard]] double slope(double tension) const;
   /// The inverse of `area`, of every area > 0.
   [[nodiscard]] double tension(double area) const;

@@ -1,4 +1,4 @@
-"""The check by finite elements, and what they find themselves."""
+"""The check by finite elements, and their solution of a problem of their own."""
 
 import json
 import os
@@ -69,7 +69,7 @@ def check(what: Union[Simulation, Scene, str, "os.PathLike[str]"],
     quick: coarse elements, about six seconds. require: largest error of either method, as a share of each field, with
     which they may agree. ranks: MPI processes of the finite elements.
 
-    InputError: there is no finite-element program, or it does not know something of the scene.
+    InputError: there is no finite-element program, or it lacks an effect of the scene.
     """
     if isinstance(what, Simulation):
         if what.directory is None:
@@ -113,7 +113,8 @@ def solve_by_elements(surface: Surface, sources: Sources, conductivity_in: float
     Returns dofs (unknowns), cells, seconds (processor time from the shape to the fields; seconds_mesh of it for the
     mesh), memory_bytes (peak of the program), fields{"q", "force"}{"l2", "max"}: errors relative to the exact solution.
 
-    InputError: there is no finite-element program. RuntimeError: it has not come to its end.
+    InputError: there is no finite-element program.
+    RuntimeError: it did not finish.
     """
     code, text = _core.solve_sources_by_elements(
         _program_folder(), surface.coefficients, point_sources(surface, sources),

@@ -10,12 +10,13 @@ from .surface import Surface
 
 
 def example1_sources() -> List[Tuple[np.ndarray, float, bool]]:
-    """Its point sources: place, strength, whether it is inside."""
+    """The six point sources of Example 1: place, strength, whether it is inside."""
     return _core.example1_sources()
 
 
 def example1(degree: int = 16) -> dict:
-    """Solves it: errors of q and f_E relative to the largest exact value, iterations; those of `vehd verify`."""
+    """Solves Example 1 as `vehd verify` does. Returns order, error_q and error_force relative to the largest exact value,
+    and iterations."""
     surface = Surface.from_shape("radial", degree, upsampling=1, base=1.0, amplitude=0.2, exponent=-3.0,
                                  modes=[{"n": 3, "m": 2, "a": 1.0}])
     exact = point_source_fields(surface, example1_sources())

@@ -30,10 +30,13 @@ def fit(what: Union[str, "os.PathLike[str]", Mapping[str, Any]], directory: Unio
     "free": {"membrane.capacitance": {"from": "0.2 uF/cm^2", "to": "5 uF/cm^2"}}}, with paths relative to the present
     folder.
     directory: for the results and the runs; runs that are there already are not computed again.
-    jobs: runs at a time, as many as there are processors if left out. plot: draws fit.png.
+    jobs: runs at a time, by default one for each processor.
+    plot: draws fit.png.
 
     Returns the content of fit.json: values, errors (None where the data do not determine the key), correlation, chi2,
     undetermined and more.
+
+    InputError: a fit file, a scene or its data cannot be used, or the model has no value at the start.
     """
     is_file = not isinstance(what, Mapping)
     count = (os.cpu_count() or 1) if jobs is None else whole("jobs", jobs, 1, 1024)

@@ -33,13 +33,19 @@ def coefficients_of(name: str, values: np.ndarray) -> np.ndarray:
 
 
 def evaluate_harmonics(coefficients: np.ndarray, theta: np.ndarray, phi: np.ndarray) -> np.ndarray:
-    """Values [n] or [n, k] of coefficients [(p+1)²] or [(p+1)², k] in any directions: angles from +z and longitudes in
-    radians, both [n]."""
+    """Values [n] or [n, k] from coefficients [(p+1)²] or [(p+1)², k] in any directions: angles from +z and longitudes in
+    radians, both [n].
+
+    ShapeError: the number of rows is not (p+1)², or theta and phi differ in shape.
+    """
     coefficients = coefficients_of("coefficients", coefficients)
     theta = reals("theta", theta, ("n",))
     return _core.evaluate_harmonics(coefficients, theta, reals("phi", phi, theta.shape))
 
 
 def resize_degree(coefficients: np.ndarray, degree: int) -> np.ndarray:
-    """Coefficients [(p+1)²] or [(p+1)², k] cut or continued by zeros to another degree."""
+    """Coefficients [(p+1)²] or [(p+1)², k] truncated or padded with zeros to another degree.
+
+    ShapeError: the number of rows is not (p+1)².
+    """
     return _core.resize_degree(coefficients_of("coefficients", coefficients), whole("degree", degree, 0))

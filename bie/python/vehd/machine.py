@@ -7,8 +7,11 @@ from .arguments import whole
 
 
 def set_threads(count: int) -> None:
-    """Number of threads of all that follows; what other threads of Python call has its own. The last digits of results
-    may depend on it."""
+    """Sets the number of threads of later calls from this Python thread; others have numbers of their own. It changes no
+    bit of a result.
+
+    InputError: the number is below 1 or above the limit of the program.
+    """
     _core.set_threads(whole("count", count, 1, _core.most_threads))
 
 

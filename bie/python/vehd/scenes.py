@@ -38,12 +38,12 @@ def _settings(values: Optional[Mapping[str, Any]]) -> list:
 class Scene:
     """A validated scene, with the keys of `vehd help scene`.
 
-    Scene("scene.toml", {"flow.rate": 2.0})  # other values for some keys
-    Scene.from_text(toml)
-    Scene.from_dict({"shape": {"kind": "ellipsoid", "axes": [1, 1, 2]}, "numerics": {...}})
+        Scene("scene.toml", {"flow.rate": 2.0})  # other values for some keys
+        Scene.from_text(toml)
+        Scene.from_dict({"shape": {"kind": "ellipsoid", "axes": [1, 1, 2]}, "numerics": {...}})
 
-    What is wrong raises SceneError with the words of the program: file, line, value, what is accepted, and the nearest
-    key of one that is unknown. Its attributes `file` and `line` tell where.
+    SceneError: the scene cannot be used; the message is that of the program with file, line, value, accepted values and,
+    for an unknown key, the nearest one. Its attributes `file` and `line` give the place.
     """
 
     def __init__(self, path: Path, settings: Optional[Mapping[str, Any]] = None):
@@ -58,7 +58,7 @@ class Scene:
     @classmethod
     def from_text(cls, text: str, name: str = "scene", folder: Path = "",
                   settings: Optional[Mapping[str, Any]] = None) -> "Scene":
-        """Of TOML in memory.
+        """A scene from TOML in memory.
 
         name: stands for the file in messages; folder: where relative paths in the scene start.
         """
@@ -66,9 +66,9 @@ class Scene:
 
     @classmethod
     def from_dict(cls, tables: Mapping[str, Any], folder: Path = "") -> "Scene":
-        """Of a dict of tables; several vesicles are a list of dicts under "vesicle".
+        """A scene from a dict of tables; several vesicles are a list of dicts under "vesicle".
 
-        Lines in messages count in the TOML that the dict makes, table by table.
+        Messages give lines of the TOML made from the dict, table by table.
         """
         return cls._of(_core.Scene.from_dict(tables, os.fspath(folder)))
 
@@ -79,7 +79,7 @@ class Scene:
 
     @property
     def path(self) -> str:
-        """The file that it comes from; of a text its name."""
+        """The file of the scene, or the name given with a text."""
         return str(self._core.path)
 
     @property

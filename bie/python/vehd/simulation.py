@@ -20,17 +20,17 @@ def _show(status: "_core.Status") -> None:
 
 
 class Simulation:
-    """A scene on its way through time: the steps of `vehd run`, bit for bit.
+    """Steps a scene through time, bit for bit as `vehd run` does.
 
     scene: Scene, path of a scene file, or dict of tables.
-    directory: where the files of a run are kept, as `vehd run -o` does, up to date after every step; `--resume` of the
-        program and `resume=True` here go on with it. None: everything stays in memory.
-    resume: go on with the run in the directory if there is one.
+    directory: for the files of a run as of `vehd run -o`, up to date after every step; `--resume` of the program and
+        `resume=True` here continue it. None: everything stays in memory.
+    resume: continue the run in the directory if there is one.
 
-    Raises what the program says of wrong input: SceneError, InputError, OutputError, ConvergenceError.
+    SceneError, InputError, OutputError, ConvergenceError: with the messages of the program.
 
-    Other threads of Python run during a step. Ctrl-C lets the step in hand end and raises KeyboardInterrupt: nothing is
-    torn, and the simulation can go on.
+    Other threads of Python run during a step. Ctrl-C lets the current step end and raises KeyboardInterrupt; the
+    simulation can then continue.
     """
 
     def __init__(self, scene: Union[Scene, str, "os.PathLike[str]", Mapping[str, Any]],
@@ -43,14 +43,14 @@ class Simulation:
         self._core = _core.SceneRun(scene._core, None if directory is None else os.fspath(directory), resume)
 
     def step(self) -> bool:
-        """One accepted step; False where the end of the scene is reached already.
+        """Takes one accepted step. Returns False if the end of the scene is reached already.
 
         ConvergenceError: no step is acceptable; the state is the last good one.
         """
         return self._core.step()
 
     def __iter__(self) -> Iterator["_core.Status"]:
-        """Steps to the end of the scene, or as long as the loop wants."""
+        """Steps to the end of the scene; yields the status after each."""
         while self.step():
             yield self.status
 
@@ -79,7 +79,7 @@ class Simulation:
 
     @property
     def time(self) -> float:
-        """Of the state, in the unit of the history."""
+        """Time of the state, in the unit of the history."""
         return self._core.status.time
 
     @property
@@ -96,8 +96,8 @@ class Simulation:
     def state(self) -> "_core.State":
         """The vesicles as they are now: `state[0].position` and so on, coefficients of their degrees.
 
-        Arrays are read-only views of the solver's own numbers, and stay what they are when the simulation goes on.
-        Where it computes in axes of its own, as along a field, they are turned to those of the laboratory once.
+        Arrays are read-only views of the solver's own numbers and do not change when the simulation continues. If it
+        computes in axes of its own, as along a field, they are rotated to those of the laboratory once.
         Vesicles: position [(p+1)², 3], area_strain, Vm, tension, q [(p+1)²], velocity, force_bending, force_tension,
         force_electric, force_contact [(p+1)², 3]; None where the effect is absent. Forces act as in f = f_b + f_λ − f_E +
         f_c. Numbers are those of the scene, dimensionless in one with [units].
@@ -116,7 +116,7 @@ class Simulation:
 
     @property
     def directory(self) -> Optional[str]:
-        """Of the files, or None."""
+        """Folder of the files, or None."""
         return None if self._core.directory is None else str(self._core.directory)
 
     def snapshot(self) -> None:
@@ -127,9 +127,8 @@ class Simulation:
         self._core.snapshot()
 
     def close(self) -> None:
-        """Adds a snapshot of the present state, writes the summary and leaves the directory to others; no step can
-        follow. The end of the scene, of a `with` block and of the object do the same. Without a directory nothing is
-        written."""
+        """Adds a snapshot of the present state, writes the summary and unlocks the directory; no step can follow. The end
+        of the scene, of a `with` block and of the object do the same. Without a directory nothing is written."""
         self._core.close()
 
     def __enter__(self) -> "Simulation":

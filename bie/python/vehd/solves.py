@@ -47,7 +47,8 @@ def solve_electric(surface: Surface, field: Sequence[float], conductivity_in: fl
 
     field: E_∞, [3]; potential: V_m = φ_i − φ_e, coefficients [(p+1)²], zero if left out.
     Returns charge (q = [[∂φ/∂n]]), flux_in, flux_out (∂φ/∂n) [n_points], force (f_E = [[n·Σ_el]]) [n_points, 3] on the
-    grid of the surface; potential_in, potential_out, coefficients; iterations, residual.
+    grid of the surface; potential_in, potential_out, coefficients [(p+1)²]; iterations, residual.
+
     ConvergenceError: the solve has not reached the tolerance.
     """
     return _core.solve_electric(
@@ -64,6 +65,9 @@ def solve_jumps(surface: Surface, potential: np.ndarray, current: np.ndarray, co
 
     potential: [[φ]], coefficients [(p+1)²]; current: [[σ ∂φ/∂n]] on the grid, [n_points], of zero integral where
     conductivity_out is 0. Returns as solve_electric.
+
+    InputError: conductivity_out is 0 and the current has an integral.
+    ConvergenceError: the solve has not reached the tolerance.
     """
     current = reals("current", current, surface.weight.shape)
     inside, outside = conductivities(conductivity_in, conductivity_out)
@@ -82,6 +86,8 @@ def solve_tension(surface: Surface, velocity: np.ndarray, viscosity: float = 1.0
 
     velocity: u, coefficients [(p+1)², 3]. Returns tension (λ, force per length) [(p+1)²], velocity of the membrane
     [(p+1)², 3], iterations, residual. On a sphere the mean of λ is free, and zero here.
+
+    ConvergenceError: the solve has not reached the tolerance.
     """
     return _core.solve_tension(surface._core, surface._vector("velocity", velocity),
                                real("viscosity", viscosity, above=0.0),
@@ -91,6 +97,8 @@ def solve_tension(surface: Surface, velocity: np.ndarray, viscosity: float = 1.0
 def point_source_fields(surface: Surface, sources: Sources) -> Dict[str, Any]:
     """Exact traces of the potentials strength/(4π|x − y|) of point sources (place, strength, whether it is inside), on
     the grid: potential_in, potential_out, flux_in, flux_out [n_points], gradient_in, gradient_out [n_points, 3]. Sources
-    inside make the potential outside, and the other way round; Eq. (34). InputError: a source is not on the side that
-    it names."""
+    inside make the potential outside, and vice versa; Eq. (34).
+
+    InputError: a source is not on the side that it names.
+    """
     return _core.point_source_fields(surface._core, point_sources(surface, sources))

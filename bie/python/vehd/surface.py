@@ -19,8 +19,8 @@ class Operator:
 
         operator @ density, operator.matrix, operator.linear_operator()
 
-    What it finds are values at the nodes of degree p, p + 1 Gauss–Legendre latitudes times 2p + 2 longitudes, projected
-    onto degree p. Of the product of density and area element nothing is cut.
+    The potential is found at the nodes of degree p, p + 1 Gauss–Legendre latitudes times 2p + 2 longitudes, and projected
+    onto degree p. The product of density and area element is not truncated.
     """
 
     def __init__(self, surface: "_core.Surface", layer: "_core.Layer", name: str, weighted: bool = False):
@@ -56,7 +56,7 @@ class Operator:
         """The operator that takes coefficients of J f, J the area element, in place of those of f: S and Stokes S still
         return S[f], S′ and D′ return J S′[f] and J D′[f]; D and Stokes D are the same, and D′ takes f as well.
 
-        Of a strongly bent surface degree p holds more of J f than of f.
+        On a strongly bent surface degree p resolves J f better than f.
         """
         if self._weighted is None:
             self._weighted = Operator(self._surface, self._kind, self.name + " weighted", True)
@@ -119,7 +119,7 @@ class Surface:
 
     @property
     def coefficients(self) -> np.ndarray:
-        """Of x, [(p+1)², 3]; a view, as are all arrays of the geometry."""
+        """Coefficients of x, [(p+1)², 3]; a view, as are all arrays of the geometry."""
         return self._core.coefficients
 
     @property
@@ -278,9 +278,11 @@ class Surface:
         weighted: single and stokes_single are coefficients of J f, J the area element, in place of f.
         side: of points on the surface itself: "interior", "exterior" or "principal_value".
         tolerance: of the quadrature, relative to the largest density.
-        Returns single, double, stokes_single, stokes_double [n] or [n, 3], single_gradient, double_gradient [n, 3] with
-        gradients, each with its estimated error `single_error` … [n]: nothing of these densities is cut, so that the
-        quadrature has all of the error; inside, distance, resolved [n].
+        Returns single, double [n], stokes_single, stokes_double [n, 3], with gradients single_gradient, double_gradient
+        [n, 3], each with its estimated error `single_error` … [n], which is that of the quadrature alone, since no density
+        is truncated; inside, distance, resolved [n].
+
+        ConvergenceError: the nearest point of the surface is not found.
         """
         densities = [None if density is None else check(name, density)
                      for name, density, check in (("single", single, self._scalar), ("double", double, self._scalar),

@@ -11,8 +11,11 @@ from . import _core
 
 
 class Table(dict):
-    """Columns by name, numpy arrays [n_rows]; `units` holds the unit of each, empty of pure numbers and where the scene
-    has no units. Columns are those of history.csv (docs/run_files.md)."""
+    """Columns of history.csv by name (docs/run_files.md), numpy arrays [n_rows]; `units` has the unit of each, empty for
+    pure numbers and without units in the scene.
+
+    KeyError: there is no column of a name; the message gives the nearest one.
+    """
 
     units: dict
 
@@ -35,7 +38,7 @@ class Table(dict):
         return frame
 
     def column(self, name: str, vesicle: int) -> np.ndarray:
-        """A column of a table of each vesicle, the rows of one of them."""
+        """A column of a vesicle_history, the rows of one vesicle."""
         return self[name][self["vesicle"] == vesicle]
 
     def label(self, name: str) -> str:
@@ -49,7 +52,10 @@ class Table(dict):
 
 def concat(tables: Iterable[Table]) -> Table:
     """The rows of several tables one after another, with the column `run`: 0 for the first table, 1 for the second …
-    Columns are those that all tables have. Raises InputError where a column has two units."""
+    Columns are those that all tables have.
+
+    InputError: a column has two units, or there is no table.
+    """
     parts = list(tables)
     if not parts:
         raise _core.InputError("concat of no tables")
@@ -67,8 +73,10 @@ def concat(tables: Iterable[Table]) -> Table:
 
 
 def read_history(path: Union[str, "os.PathLike[str]"]) -> Table:
-    """The history of a run: of its folder, or of a history.csv or vesicles.csv. Raises InputError where rows were altered
-    or are missing."""
+    """The history of a run from its folder, or from a history.csv or vesicles.csv.
+
+    InputError: the file cannot be read, or rows were altered or are missing.
+    """
     file = Path(path)
     if file.is_dir():
         file = file / "history.csv"
