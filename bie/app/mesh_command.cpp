@@ -5,7 +5,7 @@
 #include "bie/app/commands.hpp"
 #include "bie/app/scene_choice.hpp"
 #include "bie/comparison/frozen_state.hpp"
-#include "bie/comparison/volume_mesh.hpp"
+#include "bie/comparison/check.hpp"
 
 namespace vehd {
 namespace {

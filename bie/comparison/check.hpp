@@ -31,7 +31,20 @@ struct CheckTask {
 int estimate_order(int order, bool quick);
 
 /// Solves the frozen state by boundary integrals, lets the finite elements solve and compare it, and waits for them.
-/// @throws InputError if the finite elements lack an effect of the state, OutputError if a file cannot be written
+/// @throws InputError if the state has something that the finite elements do not know, OutputError
 FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task);
+
+/// Which mesh is made, and where it goes.
+struct MeshTask {
+  const FrozenShape& shape;
+  std::filesystem::path output;  ///< MSH 4.1; untouched where the mesh cannot be made
+  std::string family = "hex";    ///< "hex": curved blocks; "tet": unstructured tetrahedra
+  int refine = 0;                ///< how often the element size is divided by 1.5
+};
+
+/// Has the finite-element side mesh the inside and the outside of one shape, or of two.
+/// @return its figures of quality
+/// @throws OutputError
+FemProgram::Result write_volume_mesh(const FemProgram& fem, const MeshTask& task);
 
 }  // namespace vehd

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "bie/comparison/local_forces.hpp"
 #include "bie/physics/charge_density.hpp"
+#include "bie/physics/effects/bending.hpp"
 #include "bie/physics/effects/tension.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/physics/membrane_flow.hpp"
@@ -26,11 +26,38 @@
 #include "bie/support/errors.hpp"
 
 namespace vehd {
+
 namespace {
 
-ElectricParameters electric_of(const FrozenState& frozen, std::size_t vesicle = 0) {
-  return electric_parameters(frozen.model, frozen.model.vesicles[vesicle]).at(frozen.state.time, Limit::after);
+/// On a membrane that needs no layers.
+/// @param position  coefficients of x in its degree
+LocalForces forces_on(const FrozenState& frozen, const Membrane& membrane, const Matrix& position,
+                      std::size_t vesicle) {
+  const VesicleModel& model = frozen.model.vesicles[vesicle];
+  LocalForces forces;
+  forces.order = membrane.fine.order();
+  if (model.bending) forces.bending = membrane.fine.analyze(bending_force(*model.bending, membrane));
+  for (const auto& effect : model.effects) {
+    if (effect->spontaneous_curvature() == 0.0) continue;
+    Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), {}};
+    effect->add({membrane, position, frozen.state.time}, forcing);
+    forces.curvature = membrane.fine.analyze(forcing.force);
+  }
+  return forces;
 }
+
+}  // namespace
+
+LocalForces local_forces(const FrozenState& frozen, int order, std::size_t vesicle) {
+  const Matrix position = resize_order(frozen.state.vesicles[vesicle].position, order);
+  const SphereTransform fine(order, make_grid(frozen.settings.upsampling * order));
+  Surface surface = make_surface(fine, position);
+  const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
+  const Membrane membrane{fine, std::move(surface), {}, radius, SymmetrySubspace({}, order)};
+  return forces_on(frozen, membrane, position, vesicle);
+}
+
+namespace {
 
 /// Each membrane in a degree of its own.
 State resized_to(State state, const std::vector<int>& orders) {
@@ -64,7 +91,7 @@ class FrozenSolver {
         results(orders.size()) {
     for (std::size_t a = 0; a < orders.size(); ++a) {
       results[a].order = orders[a];
-      if (problem.contents.electric) in_field_.push_back({electric_of(frozen_, a), membrane(a)});
+      if (problem.contents.electric) in_field_.push_back({electric_at(frozen_, a), membrane(a)});
       if (problem.contents.flow) in_flow_.push_back({flow_parameters(frozen_.model, model(a)), membrane(a)});
     }
   }
@@ -153,9 +180,19 @@ class FrozenSolver {
     return -fine.analyze(lost.cwiseProduct(potential)) / model(a).charging.capacitance;
   }
 
+  /// In the degree of the state as the run has them, beside another one in twice that of the state at least: f_b has
+  /// four derivatives of x, and what a few degrees more change of it says little.
+  [[nodiscard]] LocalForces local_forces_beside(std::size_t a) const {
+    const Matrix& position = state_.vesicles[a].position;
+    if (is_of_state(a)) return forces_on(frozen_, membrane(a), position, a);
+    const int solved = order_of(position.rows()), of_state = order_of(frozen_.state.vesicles[a].position.rows());
+    const int order = std::max(2 * of_state, solved);
+    return order == solved ? forces_on(frozen_, membrane(a), position, a) : local_forces(frozen_, order, a);
+  }
+
   void take_flow_of_shape(std::size_t a) {
     CheckFields& result = results[a];
-    LocalForces local = local_forces_beside(frozen_, membrane(a), state_.vesicles[a].position, a);
+    LocalForces local = local_forces_beside(a);
     result.force_order = local.order;
     result.force_bending = std::move(local.bending);
     result.force_curvature = std::move(local.curvature);
@@ -242,135 +279,6 @@ class FrozenSolver {
 };
 
 }  // namespace
-
-Model compared_model(const FrozenState& frozen, const CheckContents& contents) {
-  Model model = frozen.model;
-  if (!contents.electric) model.electric.reset();
-  model.mobile = contents.flow;
-  return model;
-}
-
-NumericalSettings settings_at(const FrozenState& frozen, int order, std::size_t vesicle) {
-  NumericalSettings settings = frozen.settings;
-  if (order != order_of(frozen.state.vesicles[vesicle].position.rows())) {
-    const NumericalSettings defaults;
-    settings.flow_tolerance = std::min(settings.flow_tolerance, defaults.flow_tolerance);
-    settings.electric_tolerance = std::min(settings.electric_tolerance, defaults.electric_tolerance);
-  }
-  settings.order = order;
-  return settings;
-}
-
-namespace {
-
-/// What the finite elements know about one vesicle alone.
-void require_plain_charging(const FrozenState& frozen) {
-  const auto refuse = [&](const char* what) {
-    throw InputError(
-        fmt::format("{}: has {}, which the finite-element check knows about one vesicle alone; accepted: "
-                    "two without",
-                    frozen.source, what));
-  };
-  if (relaxes_charge(frozen.model)) refuse("displacement currents");
-  for (const VesicleModel& vesicle : frozen.model.vesicles) {
-    if (vesicle.reaction || vesicle.by_place || vesicle.pump) {
-      refuse("a membrane that porates or differs from place to place");
-    }
-  }
-}
-
-}  // namespace
-
-CheckContents check_contents(const FrozenState& frozen) {
-  const Model& model = frozen.model;
-  CheckContents contents;
-  contents.flow = model.mobile;
-  for (const VesicleModel& vesicle : model.vesicles) {
-    if (contents.flow && !(vesicle.viscosity_ratio > 0.0)) {
-      throw InputError(fmt::format("{}: the viscosity inside is {:g}; the finite-element check needs it above zero",
-                                   frozen.source, vesicle.viscosity_ratio * model.viscosity));
-    }
-  }
-  if (model.electric) {
-    std::vector<double> conductivities;
-    for (const VesicleModel& vesicle : model.vesicles) conductivities.push_back(vesicle.inside.conductivity);
-    conductivities.push_back(model.electric->conductivity);
-    for (const double sigma : conductivities) {
-      if (sigma > 0.0) continue;
-      throw InputError(fmt::format("{}: a conductivity is {:g}; the finite-element check needs both above zero",
-                                   frozen.source, sigma));
-    }
-    contents.steady = !applied_field(frozen).isZero(0.0);
-    contents.electric = contents.steady || present_pump(frozen) != 0.0;
-    for (std::size_t a = 0; a < model.vesicles.size(); ++a) {
-      const VesicleState& membrane = frozen.state.vesicles[a];
-      const VesicleModel& vesicle = model.vesicles[a];
-      const bool charged = !membrane.transmembrane_potential.isZero(0.0) || !membrane.free_charge.isZero(0.0);
-      contents.electric = contents.electric || charged;
-      if (vesicle.reaction || membrane.material.conductance.size() > 0 || vesicle.pump) contents.steady = false;
-    }
-    if (model.vesicles.size() > 1) require_plain_charging(frozen);
-  }
-  if (!contents.electric && !contents.flow) {
-    throw InputError(fmt::format("{}: neither a field nor a flow at time {:g}: there is nothing to compare",
-                                 frozen.source, frozen.state.time));
-  }
-  return contents;
-}
-
-Vector3 applied_field(const FrozenState& frozen) {
-  if (!frozen.model.electric) return Vector3::Zero();
-  return electric_of(frozen).field;
-}
-
-double present_pump(const FrozenState& frozen) {
-  if (!frozen.model.electric) return 0.0;
-  return electric_of(frozen).pump;
-}
-
-Matrix3 flow_gradient(const FrozenState& frozen) {
-  if (!frozen.model.flow) return Matrix3::Zero();
-  return frozen.model.flow->waveform.at(frozen.state.time, Limit::after) * frozen.model.flow->gradient;
-}
-
-Matrix total_force(const FrozenState& frozen, const VesicleFields& fields, std::size_t vesicle) {
-  const Matrix& position = frozen.state.vesicles[vesicle].position;
-  Matrix force = Matrix::Zero(position.rows(), 3);
-  if (fields.force_bending.size() > 0) force += fields.force_bending;
-  if (fields.force_tension.size() > 0) force += fields.force_tension;
-  if (fields.force_electric.size() > 0) force -= fields.force_electric;
-  if (fields.force_contact.size() > 0) force += fields.force_contact;
-  Model others = frozen.model;
-  others.flow.reset();
-  const auto effects = explicit_effects(others, others.vesicles[vesicle]);
-  if (effects.empty()) return force;
-
-  // The run file stores no other forces: they follow from the shape and the time.
-  Instruments instruments;
-  const MembraneSpace space(settings_at(frozen, order_of(position.rows()), vesicle), frozen.symmetry);
-  const Membrane membrane = membrane_at(space, position, {}, 1.0, instruments);
-  for (const auto& effect : effects) {
-    Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(position.rows(), 3)};
-    effect->add({membrane, position, frozen.state.time}, forcing);
-    if (!forcing.velocity.isZero(0.0)) {
-      throw InputError(fmt::format("{}: the finite-element check knows linear background flows only, not: {}",
-                                   frozen.source, effect->description().name));
-    }
-    force += membrane.fine.analyze(forcing.force);
-  }
-  return force;
-}
-
-CheckProblem check_problem(const FrozenState& frozen) {
-  CheckProblem problem{frozen, check_contents(frozen), {}, {}};
-  const std::size_t n = frozen.state.vesicles.size();
-  problem.forces.resize(n);
-  for (std::size_t a = 0; problem.contents.flow && a < n; ++a) {
-    problem.forces[a] = total_force(frozen, frozen.fields.vesicles[a], a);
-  }
-  if (n == 1) problem.samples = check_samples(frozen.state.vesicles.front().position, frozen.model.wall);
-  return problem;
-}
 
 std::vector<CheckFields> check_fields(const CheckProblem& problem, const std::vector<int>& orders) {
   const auto start = std::chrono::steady_clock::now();

@@ -107,7 +107,7 @@ void write_physics(VesicleWriter& file, const FrozenState& frozen, std::size_t a
   number("viscosity_out", model.viscosity);
   const Matrix gradient = flow_gradient(frozen).transpose();
   write(file, "/physics/flow_gradient", gradient, {"velocity/length", "A(i, j) of v_i = A(i, j) x_j, in row i"});
-  const Matrix field = applied_field(frozen);
+  const Matrix field = electric_at(frozen).field;
   write(file, "/physics/field", field, {"potential/length", "E_inf"});
   if (!model.electric) return;
   number("conductivity_in", vesicle.inside.conductivity);
@@ -130,7 +130,7 @@ void write_given(VesicleWriter& file, const CheckProblem& problem, std::size_t a
     field("Vm", transmembrane_potential(state, fields), {"potential", "V_m of the snapshot"});
     field("conductance", fields.conductance.size() > 0 ? fields.conductance : state.material.conductance,
           {"conductance/area", "G_m where it varies"});
-    field("pump_current", present_pump(frozen) * state.material.pump_current,
+    field("pump_current", electric_at(frozen).pump * state.material.pump_current,
           {"current/area", "J_p at the time of the snapshot, outwards"});
     field("free_charge_in", fields.free_charge_in, {"charge/area", "q_i of the inner face"});
     field("free_charge_out", fields.free_charge_out, {"charge/area", "q_e of the outer face"});

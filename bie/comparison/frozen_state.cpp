@@ -48,62 +48,43 @@ void require_outward(const std::string& what, const Matrix& position) {
       "{} encloses the volume {:.6g}; accepted: a positive one, with x_θ × x_φ pointing outwards", what, volume));
 }
 
-/// Of one vesicle of a scene.
-void require_outward(const Scene& scene, const std::filesystem::path& file, std::size_t vesicle,
-                     const Matrix& position) {
-  const std::vector<std::string> names = vesicle_names(scene);
-  const std::string of_one = names.size() < 2 ? "" : fmt::format(" of \"{}\"", names[vesicle]);
-  require_outward(fmt::format("{}: the shape{}", file.string(), of_one), position);
-}
-
-/// Of one vesicle of a snapshot.
-void require_outward(const RunSnapshot& snapshot, std::size_t vesicle, const Matrix& position) {
-  const std::string of_one = snapshot.n_vesicles() < 2 ? "" : fmt::format(" of vesicle {:02}", vesicle);
-  require_outward(fmt::format("{}: x{} at time {:g}", snapshot.name(), of_one, snapshot.time()), position);
-}
-
 bool is_scene(const std::filesystem::path& file) { return file.extension() == ".toml"; }
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& problem) {
+  throw InputError(fmt::format("{}: {}", file.string(), problem));
+}
 
 /// Finite elements mesh one side of a wall with a single vesicle on it.
 void require_known_wall(const Scene& scene, const std::filesystem::path& file) {
   if (!scene.wall) return;
-  const auto refuse = [&](const std::string& problem) {
-    throw InputError(fmt::format("{}: {}", file.string(), problem));
-  };
-  if (n_vesicles(scene) > 1) refuse("has two vesicles and a wall; vehd check accepts one of them beside a wall");
+  if (n_vesicles(scene) > 1) refuse(file, "has two vesicles and a wall; vehd check accepts one of them beside a wall");
   const Model model = model_of(scene);
   if (model.mobile && model.wall->flow == WallFlow::none) {
-    refuse("has a wall that does not touch the flow; vehd check accepts \"flow\" no-slip or stress-free in [wall]");
+    refuse(file,
+           "has a wall that does not touch the flow; vehd check accepts \"flow\" no-slip or stress-free in [wall]");
   }
   if (model.electric && model.wall->field == WallField::none) {
-    refuse("has a wall that does not touch the field; vehd check accepts \"field\" insulating or electrode in [wall]");
+    refuse(file,
+           "has a wall that does not touch the field; vehd check accepts \"field\" insulating or electrode in [wall]");
   }
 }
 
-/// Finite elements solve for one instant.
-void require_instant(const Scene& scene, const std::filesystem::path& file) {
-  require_known_wall(scene, file);
-  if (!has_averaged_field(scene)) return;
-  throw InputError(fmt::format(
-      "{}: has an averaged ac field; vehd check accepts fields that are followed in time, without \"average\"",
-      file.string()));
-}
-
-/// They know a membrane that bends alike everywhere, and one capacitance where V_m follows from charges.
-void require_known_places(const Scene& scene, const std::filesystem::path& file) {
-  const auto refuse = [&](const std::string& problem) {
-    throw InputError(fmt::format("{}: {}", file.string(), problem));
-  };
+/// Finite elements solve for one instant. They know a membrane that bends alike everywhere, and one capacitance where
+/// V_m follows from charges.
+void require_known_effects(const Scene& scene, const std::filesystem::path& file) {
+  if (has_averaged_field(scene)) {
+    refuse(file, "has an averaged ac field; vehd check accepts fields that are followed in time, without \"average\"");
+  }
   for (const Scene& one : each_alone(scene)) {
     if (one.membrane.bending_by_place || one.membrane.curvature_by_place) {
-      refuse(
-          "has a membrane that bends differently from place to place; vehd check accepts [membrane] without "
-          "\"bending_by_place\" and \"curvature_by_place\"");
+      refuse(file,
+             "has a membrane that bends differently from place to place; vehd check accepts [membrane] without "
+             "\"bending_by_place\" and \"curvature_by_place\"");
     }
     if (one.membrane.capacitance_by_place && has_relaxing_charge(one)) {
-      refuse(
-          "has a capacitance that differs from place to place, with displacement currents; vehd check accepts one of "
-          "them");
+      refuse(file,
+             "has a capacitance that differs from place to place, with displacement currents; vehd check accepts one "
+             "of them");
     }
   }
 }
@@ -126,41 +107,73 @@ std::size_t choice_of(const RunReader& run, const std::filesystem::path& file, c
   return choice.snapshot;
 }
 
-/// In the laboratory, where the finite elements are as well.
-Symmetry symmetry_of(const Scene& scene, const FrozenState& frozen) {
-  return scene.numerics.symmetry == SymmetryUse::off ? Symmetry{} : find_symmetry(frozen.model, frozen.state);
+void require_same_vesicles(const RunReader& run, const Scene& scene) {
+  const std::size_t n = run.n_vesicles();
+  if (n == n_vesicles(scene)) return;
+  throw InputError(fmt::format("{}: has {} vesicle{} in its snapshots, and its scene has {}", run.name(), n,
+                               n == 1 ? "" : "s", n_vesicles(scene)));
 }
 
-FrozenState start_of_scene(const SceneSource& source) {
-  const Scene scene = read_scene(source);
-  require_few_vesicles(n_vesicles(scene), source.file, "vehd check");
-  require_instant(scene, source.file);
-  require_known_places(scene, source.file);
-  FrozenState frozen;
-  frozen.source = source.file.string();
-  frozen.model = model_of(scene);
-  const Problem problem = problem_of(scene);
+/// A scene, or a snapshot of a run with its scene.
+struct Origin {
+  std::filesystem::path file;
+  std::optional<RunReader> run{};  ///< absent, as is the snapshot: the start of the scene
+  std::size_t number = 0;          ///< of the snapshot
+  std::optional<RunSnapshot> snapshot{};
+  ReadingNotes notes{};
+  Scene scene{};
+
+  /// @param who  command that accepts one or two vesicles
+  Origin(const SceneSource& source, const std::optional<std::string>& time, const std::string& who)
+      : file(source.file) {
+    if (is_scene(file)) {
+      require_start(file, time);
+      scene = read_scene(source);
+      require_few_vesicles(n_vesicles(scene), file, who);
+    } else {
+      run.emplace(read_snapshots(file, notes));
+      require_few_vesicles(run->n_vesicles(), file, who);
+      number = choice_of(*run, file, time, notes);
+      snapshot.emplace(run->snapshot(number));
+      scene = parse_scene(run->scene(), file.string() + " (scene)", file.parent_path());
+      require_same_vesicles(*run, scene);
+    }
+    require_known_wall(scene, file);
+  }
+  Origin(const Origin&) = delete;
+  Origin& operator=(const Origin&) = delete;
+
+  /// @throws InputError if the shape of a vesicle is none
+  void require_outward_shape(std::size_t vesicle, const Matrix& position) const {
+    if (run) {
+      const std::string of_one = run->n_vesicles() < 2 ? "" : fmt::format(" of vesicle {:02}", vesicle);
+      require_outward(fmt::format("{}: x{} at time {:g}", run->name(), of_one, snapshot->time()), position);
+    } else {
+      const std::vector<std::string> names = vesicle_names(scene);
+      const std::string of_one = names.size() < 2 ? "" : fmt::format(" of \"{}\"", names[vesicle]);
+      require_outward(fmt::format("{}: the shape{}", file.string(), of_one), position);
+    }
+  }
+};
+
+void start_scene(const Origin& origin, FrozenState& frozen) {
+  const Problem problem = problem_of(origin.scene);
   for (std::size_t a = 0; a < problem.start.size(); ++a) {
     frozen.model.vesicles[a].undulations = problem.model.vesicles[a].undulations;
-  }
-  for (std::size_t a = 0; a < problem.start.size(); ++a) {
-    require_outward(scene, source.file, a, problem.start[a].position);
+    origin.require_outward_shape(a, problem.start[a].position);
   }
   Instruments instruments;
   Evolution evolution(setup_of(problem), problem.start, instruments);
   evolution.evaluate_start();
   frozen.fields = in_laboratory(problem.frame, evolution.evaluation().fields);
   frozen.state = in_laboratory(problem.frame, evolution.state());
-  frozen.symmetry = symmetry_of(scene, frozen);
-  frozen.settings = settings_of(scene);
-  frozen.names = vesicle_names(scene);
-  return frozen;
 }
 
 /// One vesicle of a snapshot: every field that a run of this scene writes, so that none can be missing unnoticed.
 class VesicleOfSnapshot {
  public:
-  VesicleOfSnapshot(const RunSnapshot& snapshot, std::size_t vesicle) : snapshot_(snapshot), vesicle_(vesicle) {}
+  VesicleOfSnapshot(const Origin& origin, std::size_t vesicle)
+      : origin_(origin), snapshot_(*origin.snapshot), vesicle_(vesicle) {}
 
   void read(const MembraneScene& scene, FrozenState& frozen) const {
     const Model& model = frozen.model;
@@ -169,7 +182,7 @@ class VesicleOfSnapshot {
     VesicleFields& fields = frozen.fields.vesicles.emplace_back();
     const bool electric = model.electric.has_value(), tense = model.mobile && of_model.inextensible;
     state.position = coefficients("x", 3);
-    require_outward(snapshot_, vesicle_, state.position);
+    origin_.require_outward_shape(vesicle_, state.position);
     state.area_strain = Vector::Zero(state.position.rows());
     if (of_model.inextensible) state.tension = Vector::Zero(state.position.rows());
     fields.velocity = coefficients("velocity", 3, model.mobile);
@@ -224,77 +237,56 @@ class VesicleOfSnapshot {
     return is_written ? snapshot_.coefficients(name, components, vesicle_) : Matrix();
   }
 
+  const Origin& origin_;
   const RunSnapshot& snapshot_;
   std::size_t vesicle_;
 };
 
-void require_same_vesicles(const RunReader& run, const Scene& scene) {
-  const std::size_t n = run.n_vesicles();
-  if (n == n_vesicles(scene)) return;
-  throw InputError(fmt::format("{}: has {} vesicle{} in its snapshots, and its scene has {}", run.name(), n,
-                               n == 1 ? "" : "s", n_vesicles(scene)));
-}
-
-FrozenState snapshot_of_run(const std::filesystem::path& file, const std::optional<std::string>& time) {
-  FrozenState frozen;
-  const RunReader run = read_snapshots(file, frozen.notes);
-  require_few_vesicles(run.n_vesicles(), file, "vehd check");
-  const std::size_t number = choice_of(run, file, time, frozen.notes);
-  const RunSnapshot snapshot = run.snapshot(number);
-  const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
-  require_instant(scene, file);
-  require_known_places(scene, file);
-  require_same_vesicles(run, scene);
-  frozen.source = file.string();
-  frozen.model = model_of(scene);
-  frozen.names = vesicle_names(scene);
-  frozen.state.time = snapshot.time();
-  const std::vector<Scene> alone = each_alone(scene);
-  for (std::size_t a = 0; a < run.n_vesicles(); ++a) VesicleOfSnapshot(snapshot, a).read(alone[a].membrane, frozen);
-  require_copies(run, number);
-  frozen.symmetry = symmetry_of(scene, frozen);
-  frozen.settings = settings_of(scene);
-  return frozen;
+void take_snapshot(const Origin& origin, FrozenState& frozen) {
+  frozen.state.time = origin.snapshot->time();
+  const std::vector<Scene> alone = each_alone(origin.scene);
+  for (std::size_t a = 0; a < alone.size(); ++a) VesicleOfSnapshot(origin, a).read(alone[a].membrane, frozen);
+  require_copies(*origin.run, origin.number);
 }
 
 }  // namespace
 
 FrozenState read_frozen_state(const SceneSource& source, const std::optional<std::string>& time) {
-  if (is_scene(source.file)) {
-    require_start(source.file, time);
-    return start_of_scene(source);
+  if (!is_scene(source.file) && !source.settings.empty()) {
+    throw InputError(
+        fmt::format("--set {}: {} is a run, which has the values that it was made with; accepted: with a "
+                    "scene (.toml)",
+                    source.settings.front(), source.file.string()));
   }
-  if (source.settings.empty()) return snapshot_of_run(source.file, time);
-  throw InputError(
-      fmt::format("--set {}: {} is a run, which has the values that it was made with; accepted: with a "
-                  "scene (.toml)",
-                  source.settings.front(), source.file.string()));
+  const Origin origin(source, time, "vehd check");
+  const Scene& scene = origin.scene;
+  require_known_effects(scene, origin.file);
+  FrozenState frozen;
+  frozen.source = origin.file.string();
+  frozen.model = model_of(scene);
+  frozen.notes = origin.notes;
+  frozen.names = vesicle_names(scene);
+  frozen.settings = settings_of(scene);
+  origin.run ? take_snapshot(origin, frozen) : start_scene(origin, frozen);
+  // In the laboratory, where the finite elements are as well.
+  if (scene.numerics.symmetry != SymmetryUse::off) frozen.symmetry = find_symmetry(frozen.model, frozen.state);
+  return frozen;
 }
 
 FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::optional<std::string>& time) {
+  const Origin origin({file, {}}, time, "vehd mesh");
   FrozenShape shape;
   shape.source = file.string();
-  if (is_scene(file)) {
-    require_start(file, time);
-    const Scene scene = read_scene(file);
-    require_few_vesicles(n_vesicles(scene), file, "vehd mesh");
-    require_known_wall(scene, file);
-    shape.wall = model_of(scene).wall;
-    for (const Scene& one : each_alone(scene)) {
-      const Matrix& position = shape.positions.emplace_back(initial_position(one));
-      require_outward(scene, file, shape.positions.size() - 1, position);
+  shape.wall = model_of(origin.scene).wall;
+  shape.notes = origin.notes;
+  const std::vector<Scene> alone = each_alone(origin.scene);
+  for (std::size_t a = 0; a < alone.size(); ++a) {
+    if (origin.snapshot) {
+      shape.positions.push_back(resize_order(origin.snapshot->coefficients("x", 3, a), origin.snapshot->degree(a)));
+    } else {
+      shape.positions.push_back(initial_position(alone[a]));
     }
-    return shape;
-  }
-  const RunReader run = read_snapshots(file, shape.notes);
-  require_few_vesicles(run.n_vesicles(), file, "vehd mesh");
-  const RunSnapshot snapshot = run.snapshot(choice_of(run, file, time, shape.notes));
-  const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
-  require_known_wall(scene, file);
-  shape.wall = model_of(scene).wall;
-  for (std::size_t a = 0; a < run.n_vesicles(); ++a) {
-    shape.positions.push_back(resize_order(snapshot.coefficients("x", 3, a), snapshot.degree(a)));
-    require_outward(snapshot, a, shape.positions.back());
+    origin.require_outward_shape(a, shape.positions.back());
   }
   return shape;
 }

@@ -105,30 +105,20 @@ void take_shapes(const RunReader& run, std::size_t first, std::size_t last, bool
 }  // namespace
 
 TimeSpan read_time_span(const std::filesystem::path& file, const std::string& from, const FrozenState& end) {
-  if (file.extension() == ".toml") {
-    throw InputError(fmt::format("{}: --from goes with a run; run the scene and give its run.h5", file.string()));
-  }
-  if (!end.model.electric) {
-    throw InputError(
-        fmt::format("{}: without [electric] there is no V_m; --from accepts runs in a field", file.string()));
-  }
-  if (end.model.vesicles.size() > 1) {
-    throw InputError(
-        fmt::format("{}: has {} vesicles; --from accepts a run of one", file.string(), end.model.vesicles.size()));
-  }
-  if (const VesicleModel& vesicle = vesicle_of_span(end); vesicle.reaction || vesicle.by_place || vesicle.pump) {
-    throw InputError(
-        fmt::format("{}: has a membrane that porates or differs from place to place; --from accepts runs with one that "
-                    "charges alike everywhere",
-                    file.string()));
-  }
-  if (relaxes_charge(end.model)) {
-    throw InputError(fmt::format("{}: has displacement currents; --from accepts runs without \"displacement_current\"",
-                                 file.string()));
-  }
-  if (end.model.wall) {
-    throw InputError(fmt::format("{}: has a wall; --from accepts runs without [wall]", file.string()));
-  }
+  const auto refuse_if = [&](bool problem, const std::string& what) {
+    if (problem) throw InputError(fmt::format("{}: {}", file.string(), what));
+  };
+  refuse_if(file.extension() == ".toml", "--from goes with a run; run the scene and give its run.h5");
+  refuse_if(!end.model.electric, "without [electric] there is no V_m; --from accepts runs in a field");
+  const std::size_t n_vesicles = end.model.vesicles.size();
+  refuse_if(n_vesicles > 1, fmt::format("has {} vesicles; --from accepts a run of one", n_vesicles));
+  const VesicleModel& vesicle = vesicle_of_span(end);
+  refuse_if(vesicle.reaction || vesicle.by_place || vesicle.pump,
+            "has a membrane that porates or differs from place to place; --from accepts runs with one that charges "
+            "alike everywhere");
+  refuse_if(relaxes_charge(end.model),
+            "has displacement currents; --from accepts runs without \"displacement_current\"");
+  refuse_if(end.model.wall.has_value(), "has a wall; --from accepts runs without [wall]");
   ReadingNotes notes;
   const RunReader run = read_snapshots(file, notes);
   const GivenTimes times(run, file);
@@ -136,12 +126,9 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
   TimeSpan span;
   span.begin = run.times()[choice.snapshot];
   span.end = end.state.time;
-  if (!(span.begin < span.end)) {
-    throw InputError(
-        fmt::format("{}: --from {} is not before the snapshot that is checked, at {:g}; accepted: the time "
-                    "of an earlier snapshot",
-                    file.string(), from, span.end));
-  }
+  refuse_if(!(span.begin < span.end), fmt::format("--from {} is not before the snapshot that is checked, at {:g}; "
+                                                  "accepted: the time of an earlier snapshot",
+                                                  from, span.end));
   const RunSnapshot start = run.snapshot(choice.snapshot);
   span.potential = resize_order(start.coefficients("Vm", 1), start.degree());
   span.control = step_control_of(parse_scene(run.scene(), file.string() + " (scene)", file.parent_path()));

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bie/comparison/check.hpp"
-#include "bie/comparison/check_samples.hpp"
+#include "bie/comparison/check_problem.hpp"
 #include "bie/sphere/degrees.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/space/discretisation.hpp"

@@ -1,4 +1,4 @@
-#include "bie/comparison/local_forces.hpp"
+#include "bie/comparison/check_fields.hpp"
 
 #include <boost/test/unit_test.hpp>
 
