@@ -31,7 +31,7 @@ struct CheckTask {
 int estimate_order(int order, bool quick);
 
 /// Solves the frozen state by boundary integrals, lets the finite elements solve and compare it, and waits for them.
-/// @throws InputError if the state has something that the finite elements do not know, OutputError
+/// @throws InputError if the finite elements lack an effect of the state, OutputError if a file cannot be written
 FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task);
 
 /// Which mesh is made, and where it goes.

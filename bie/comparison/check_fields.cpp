@@ -29,8 +29,8 @@ namespace vehd {
 
 namespace {
 
-/// On a membrane that needs no layers.
-/// @param position  coefficients of x in its degree
+/// Local forces on a membrane, which needs no layers.
+/// @param position  coefficients of x in its degree, [n_coefficients x 3]
 LocalForces forces_on(const FrozenState& frozen, const Membrane& membrane, const Matrix& position,
                       std::size_t vesicle) {
   const VesicleModel& model = frozen.model.vesicles[vesicle];

@@ -7,8 +7,8 @@
 
 namespace vehd {
 
-/// Boundary-integral solution of one vesicle at one order: coefficients of that order but for f_b and f_c, empty where
-/// absent.
+/// Boundary-integral solution of one vesicle at one order p: coefficients [(p+1)²], of vectors [(p+1)² x 3]; f_b and
+/// f_c have the degree force_order. Absent fields are empty.
 struct CheckFields {
   int order = 0;
   // From x, V_m and the time alone, as a run computes them.
@@ -43,15 +43,15 @@ struct CheckFields {
   double seconds = 0.0;
 };
 
-/// Forces that the shape exerts at each point by its derivatives there, coefficients [n_coefficients x 3]; empty where
-/// the vesicle has none.
+/// Forces per area that follow from the derivatives of the shape at each point, coefficients [n_coefficients x 3];
+/// empty where the vesicle has none.
 struct LocalForces {
   int order = 0;     ///< degree of these
   Matrix bending;    ///< f_b
   Matrix curvature;  ///< f_c of a spontaneous curvature
 };
 
-/// At any degree, also beyond highest_order: they need no layers, and cost as little as some transforms.
+/// Local forces at any degree, also beyond highest_order, at the cost of some transforms.
 /// Accuracy: spectral; of a 1:1:5 ellipsoid of degree 56 the degrees 112 and 168 differ by less than 1e-5 in f_b
 /// (tests/comparison/local_forces_test.cpp)
 LocalForces local_forces(const FrozenState& frozen, int order, std::size_t vesicle = 0);

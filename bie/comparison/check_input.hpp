@@ -16,7 +16,7 @@ constexpr std::int64_t check_schema_version = 5;
 /// Problem of V_m in time.
 struct InTime {
   TimeSpan span;
-  Vector at_order;     ///< V_m at its end by potential_in_time(), with the steps of the run
+  Vector at_order;     ///< V_m at its end by potential_in_time() with the steps of the run, [n_coefficients]
   Vector for_error;    ///< at estimate_order() with finer ones
   Vector by_motion{};  ///< change_by_finer_motion()
 };
@@ -37,7 +37,8 @@ void write_check_input(const std::filesystem::path& file, const CheckInput& inpu
 /// @throws OutputError
 void write_shape_input(const std::filesystem::path& file, const FrozenShape& shape);
 
-/// The shape and the point sources that make the exact solution on it.
+/// The shape and the point sources of the exact solution on it.
+/// @param position  coefficients, [n_coefficients x 3]
 /// @throws OutputError
 void write_sources_input(const std::filesystem::path& file, const Matrix& position, const ElectricParameters& electric,
                          const std::vector<PointSource>& sources);

@@ -25,10 +25,11 @@ CheckSamples check_samples(const Matrix& position, const std::optional<Wall>& wa
 /// Values at points, [n_points x components], and the side of each.
 using SampleValues = std::pair<Matrix, std::vector<Side>>;
 
-/// Values at sample points, each with its side. All in one call; where that fails each point on its own, and NaN where
-/// no value is found.
-/// @param at  values at [n x 3] points;
-/// @throws ConvergenceError
+/// Values at sample points, [n_points x components]: all in one call of `at`, or if that fails one by one, with NaN
+/// where no value is found.
+/// @param points     [n_points x 3]
+/// @param is_inside  receives the side of each point
+/// @param at         values at [n x 3] points; may throw ConvergenceError
 Matrix where_possible(const Matrix& points, Index components, std::vector<bool>& is_inside,
                       const std::function<SampleValues(const Matrix&)>& at);
 
@@ -39,8 +40,8 @@ struct CheckContents {
   bool flow = false;      ///< a membrane that moves
 };
 
-/// @throws InputError if the scene has something that the finite-element side does not know, or knows of one vesicle
-///                    alone
+/// What can be compared at the frozen time.
+/// @throws InputError if the finite-element side lacks an effect of the scene, or has it for one vesicle only
 CheckContents check_contents(const FrozenState& frozen);
 
 /// A frozen state as both methods are given it.
@@ -54,17 +55,19 @@ struct CheckProblem {
 /// @throws InputError as check_contents and total_force
 CheckProblem check_problem(const FrozenState& frozen);
 
-/// f on the fluid, coefficients: f_b + f_λ − f_E of the fields, and whatever else acts on the shape.
+/// f on the fluid per area, coefficients [n_coefficients x 3]: f_b + f_λ − f_E of the fields, and all other forces on
+/// the shape.
 /// @param fields   of the degree of the frozen state, stored or computed anew
-/// @param vesicle  whose they are
+/// @param vesicle  to which they belong
 /// @throws InputError for a background flow that the finite-element side does not know
 Matrix total_force(const FrozenState& frozen, const VesicleFields& fields, std::size_t vesicle = 0);
 
 /// The parts of the model that are compared.
 Model compared_model(const FrozenState& frozen, const CheckContents& contents);
 
-/// Those of the run at its degree. At another one only an error is estimated: its solvers must add none of their own.
-/// @param vesicle  whose degree
+/// Settings of the run at its degree. At another degree, where only an error is estimated, solvers are no coarser than
+/// their defaults.
+/// @param vesicle  whose degree is compared with `order`
 NumericalSettings settings_at(const FrozenState& frozen, int order, std::size_t vesicle = 0);
 
 /// With the field and the pump of the frozen time; neither of them without [electric].

@@ -9,7 +9,7 @@
 
 namespace vehd {
 
-/// Whether it stands beside the running program.
+/// Whether the finite-element program is beside the running program.
 bool fem_program_is_built();
 
 /// The separate executable of the finite-element side. deal.II brings the OpenMPI build of HDF5, which must not meet

@@ -43,7 +43,8 @@ struct FrozenShape {
 /// @throws InputError if there is no such time, the file cannot be used or has too many vesicles
 FrozenState read_frozen_state(const SceneSource& source, const std::optional<std::string>& time);
 
-/// The same without its fields; of a scene nothing is solved.
+/// The shapes of read_frozen_state alone; for a scene nothing is solved.
+/// @throws InputError as read_frozen_state
 FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::optional<std::string>& time);
 
 }  // namespace vehd
