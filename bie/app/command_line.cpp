@@ -13,9 +13,9 @@
 #include "bie/files/versions.hpp"
 #include "bie/scene/nearest_name.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 #include "bie/support/interruption.hpp"
 #include "bie/support/memory.hpp"
-#include "bie/support/output_error.hpp"
 
 namespace vehd {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "bie/support/exit_code.hpp"
+#include "bie/support/file_system.hpp"
 #include "bie/support/ranks/ranks.hpp"
-#include "bie/support/result_file.hpp"
 
 /// One function per command: it adds the command's options and a callback that runs it and sets the exit code.
 namespace vehd {

@@ -8,7 +8,6 @@
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 #include "bie/support/progress.hpp"
-#include "bie/support/temporary.hpp"
 #include "bie/support/thread_count.hpp"
 
 namespace vehd {

@@ -89,7 +89,7 @@ BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& 
 
 /// Which hard cases are run, and where their files go.
 struct StabilityTask {
-  std::vector<std::filesystem::path> scenes;  ///< with their criteria, see StabilityCase
+  std::vector<std::filesystem::path> scenes;  ///< with their criteria (docs/hard_cases.md)
   /// Each run has a folder of its own below `runs`, always a fresh one; its first and last shape go to shapes/NAME.png.
   BenchOutput output;
   bool brief = false;  ///< the short form of every case

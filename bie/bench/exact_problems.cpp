@@ -9,7 +9,7 @@
 #include "bie/scene/shapes/initial_shape.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/space/membrane_at.hpp"
-#include "bie/support/memory_meter.hpp"
+#include "bie/support/memory.hpp"
 
 namespace vehd {
 

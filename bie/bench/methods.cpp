@@ -13,7 +13,7 @@
 #include "bie/comparison/check_input.hpp"
 #include "bie/comparison/fem_program.hpp"
 #include "bie/stepping/space/discretisation.hpp"
-#include "bie/support/temporary.hpp"
+#include "bie/support/file_system.hpp"
 #include "bie/support/thread_count.hpp"
 
 namespace vehd {

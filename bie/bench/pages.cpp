@@ -10,7 +10,6 @@
 #include "bie/support/child_process.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
-#include "bie/support/temporary.hpp"
 
 namespace vehd {
 namespace {

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "bie/pictures/gnuplot.hpp"
@@ -50,11 +48,7 @@ std::vector<std::string> BenchRecord::texts(const std::string& column, const std
 std::vector<double> BenchRecord::numbers(const std::string& column, const std::string& key,
                                          const std::string& value) const {
   std::vector<double> result;
-  for (const std::string& text : texts(column, key, value)) {
-    double number = std::numeric_limits<double>::quiet_NaN();
-    std::from_chars(text.data(), text.data() + text.size(), number);
-    result.push_back(number);
-  }
+  for (const std::string& text : texts(column, key, value)) result.push_back(number_of_cell(text));
   return result;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "bie/bench/table.hpp"
-#include "bie/files/machine_record.hpp"
 #include "bie/runs/run_status.hpp"
 
 namespace vehd {
@@ -44,6 +44,20 @@ class BenchTasks {
   int n_begun_ = 0;
   BenchObserver& observer_;
 };
+
+/// Machine, compiler and commit of a timing.
+struct MachineRecord {
+  std::string processor;  ///< as the operating system names it
+  unsigned hardware_threads = 0;
+  int threads = 0;  ///< that this process uses
+  std::string compiler, version, commit;
+};
+/// That of this process.
+MachineRecord machine_record();
+/// An object with the members as keys.
+nlohmann::ordered_json json_of(const MachineRecord& machine);
+/// One line for people.
+std::string text_of(const MachineRecord& machine);
 
 /// Where the files of a bench go.
 struct BenchOutput {

@@ -11,7 +11,6 @@
 #include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
-#include "bie/support/temporary.hpp"
 
 namespace vehd {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "bie/scene/problem.hpp"
 #include "bie/scene/scene.hpp"
-#include "bie/support/memory_meter.hpp"
+#include "bie/support/memory.hpp"
 
 namespace vehd {
 

@@ -15,7 +15,6 @@
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 #include "bie/support/processor_times.hpp"
-#include "bie/support/temporary.hpp"
 
 namespace vehd {
 namespace {

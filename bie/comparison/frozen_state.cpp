@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bie/comparison/stored_copies.hpp"
-#include "bie/files/snapshot_choice.hpp"
+#include "bie/files/run_reader.hpp"
 #include "bie/geometry/surface.hpp"
 #include "bie/physics/effects/tension.hpp"
 #include "bie/physics/effects/undulations.hpp"

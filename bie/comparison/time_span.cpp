@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bie/comparison/check_fields.hpp"
-#include "bie/files/snapshot_choice.hpp"
+#include "bie/files/run_reader.hpp"
 #include "bie/geometry/surface.hpp"
 #include "bie/runs/given_times.hpp"
 #include "bie/runs/run_files.hpp"

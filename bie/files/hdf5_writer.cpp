@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "bie/support/output_error.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {

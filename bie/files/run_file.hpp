@@ -1,10 +1,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bie/files/hdf5_writer.hpp"
 #include "bie/files/run_reader.hpp"
 #include "bie/files/si_unit.hpp"
+#include "bie/sphere/grid.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/stepping/state/fields.hpp"
 #include "bie/stepping/state/state.hpp"
@@ -38,5 +40,19 @@ std::string vesicle_group(std::size_t vesicle);
 /// @throws OutputError
 std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
                             const State& state, const Fields& fields, const SiUnits& si_units);
+
+/// Content of run.xdmf: the closed surfaces of every snapshot of a run.h5 beside it.
+struct XdmfSeries {
+  std::string heavy_data = "run.h5";
+  Index n_points = 0;  ///< grid points and both poles
+  Index n_triangles = 0;
+  std::vector<std::string> scalars;  ///< names of the datasets under surface/
+  std::vector<std::string> vectors;
+  std::vector<double> times;   ///< of snapshots 000000, 000001, ...
+  std::size_t n_vesicles = 1;  ///< of each snapshot
+};
+
+/// The XML text that ParaView opens.
+std::string xdmf_text(const XdmfSeries& series);
 
 }  // namespace vehd

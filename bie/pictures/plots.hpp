@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bie/files/snapshot_choice.hpp"
+#include "bie/files/run_reader.hpp"
 #include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/shape_field.hpp"
 #include "bie/runs/run_directory.hpp"

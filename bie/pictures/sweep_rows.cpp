@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <string>
 
@@ -37,10 +35,7 @@ SweepRows::SweepRows(const SweepPaths& paths) {
 }
 
 double SweepRows::number(std::size_t row, std::size_t column) const {
-  const std::string& text = cells[row][keys.size() + column];
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
+  return number_of_cell(cells[row][keys.size() + column]);
 }
 
 std::vector<double> SweepRows::numbers(std::size_t column) const {

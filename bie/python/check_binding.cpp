@@ -9,11 +9,11 @@
 
 #include "bie/comparison/check.hpp"
 #include "bie/comparison/check_input.hpp"
-#include "bie/files/snapshot_choice.hpp"
+#include "bie/files/run_reader.hpp"
 #include "bie/python/bindings.hpp"
 #include "bie/python/point_sources.hpp"
 #include "bie/runs/given_times.hpp"
-#include "bie/support/temporary.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd::python {
 

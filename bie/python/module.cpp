@@ -5,8 +5,8 @@
 #include "bie/files/versions.hpp"
 #include "bie/python/bindings.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/file_system.hpp"
 #include "bie/support/memory.hpp"
-#include "bie/support/output_error.hpp"
 #include "bie/support/thread_count.hpp"
 
 namespace vehd::python {

@@ -14,7 +14,6 @@
 #include "bie/support/csv.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
-#include "bie/support/output_error.hpp"
 
 namespace vehd {
 namespace {

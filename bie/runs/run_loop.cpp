@@ -9,7 +9,7 @@
 
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/run_files.hpp"
-#include "bie/support/output_error.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "bie/files/run_file.hpp"
-#include "bie/files/xdmf.hpp"
 #include "bie/runs/checkpoint.hpp"
 #include "bie/runs/history.hpp"
 #include "bie/runs/run_directory.hpp"

@@ -5,7 +5,6 @@
 #include "bie/files/hdf5_reader.hpp"
 #include "bie/files/run_file.hpp"
 #include "bie/support/file_system.hpp"
-#include "bie/support/output_error.hpp"
 
 namespace vehd {
 namespace {

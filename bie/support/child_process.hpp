@@ -6,6 +6,14 @@
 
 namespace vehd {
 
+/// Where to start a program. An archive of vehd carries gnuplot and mpirun (bie/cmake/archive.cmake), in the folder
+/// `programs` beside its libraries: then this is their path, and the variables by which they, and the finite elements,
+/// find fonts and plugins of the archive are set. Elsewhere it is the name, which stands for a program of PATH.
+std::filesystem::path place_of_program(const std::string& name);
+
+/// @param libraries  folder that has the libraries of vehd
+std::filesystem::path place_of_program(const std::string& name, const std::filesystem::path& libraries);
+
 /// A program to start. It has no input.
 struct ChildProgram {
   std::vector<std::string> words;  ///< its name, looked for by place_of_program(), and its arguments

@@ -11,7 +11,7 @@
 #include <cstring>
 
 #include "bie/support/exit_code.hpp"
-#include "bie/support/output_error.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 

@@ -1,5 +1,8 @@
 #include "bie/support/csv.hpp"
 
+#include <charconv>
+#include <limits>
+
 namespace vehd {
 namespace {
 
@@ -31,6 +34,12 @@ std::vector<std::string> csv_cells(const std::string& line) {
     }
   }
   return cells;
+}
+
+double number_of_cell(const std::string& cell) {
+  double number = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  return number;
 }
 
 std::pair<std::string, std::string> header_parts(const std::string& header) {

@@ -13,9 +13,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
-
-#include "bie/support/output_error.hpp"
-#include "bie/support/temporary.hpp"
+#include <utility>
 
 namespace vehd {
 namespace {
@@ -186,6 +184,43 @@ void synchronise_file(const std::filesystem::path& path) {
 std::string write_problem(const std::filesystem::path& path) {
   return fmt::format("{}: cannot be written: {}", path.string(),
                      errno == 0 ? std::string("unknown reason") : std::string(std::strerror(errno)));
+}
+
+TemporaryFolder::TemporaryFolder(const std::string& stem) {
+  std::string pattern = (std::filesystem::temp_directory_path() / (stem + ".XXXXXX")).string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw OutputError(write_problem(pattern));
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+namespace {
+
+/// Not one of the three that programs expect to be open.
+constexpr int lowest_descriptor = STDERR_FILENO + 1;
+
+}  // namespace
+
+ResultFile::ResultFile(std::filesystem::path path) : path_(std::move(path)) {
+  if (path_ != "-" && end_of_links(path_).descriptor != STDOUT_FILENO) return;
+  std::fflush(stdout);
+  standard_output_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, lowest_descriptor);
+  if (standard_output_ < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) throw OutputError(write_problem(path_));
+}
+
+ResultFile::~ResultFile() {
+  if (standard_output_ >= 0) ::close(standard_output_);
+}
+
+void ResultFile::write(const std::string& text) const {
+  if (standard_output_ >= 0) {
+    write_to_descriptor(standard_output_, text, path_);
+  } else {
+    replace_file(path_, text);
+  }
 }
 
 }  // namespace vehd

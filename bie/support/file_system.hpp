@@ -2,11 +2,19 @@
 
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// File operations whose outcome survives a kill at any instant.
 namespace vehd {
+
+/// A file could not be written: no permission, disk full, directory gone. Exit code 1.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Path of the hidden link that `exchange_by_renames` may leave behind.
 std::filesystem::path link_of(const std::filesystem::path& path);
@@ -71,5 +79,56 @@ void synchronise_file(const std::filesystem::path& path);
 
 /// "path: cannot be written: reason" with the reason of errno.
 std::string write_problem(const std::filesystem::path& path);
+
+/// A folder among the temporary files of the machine that ends with its owner.
+/// @throws OutputError
+class TemporaryFolder {
+ public:
+  /// @param stem  beginning of its name
+  explicit TemporaryFolder(const std::string& stem);
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// File that is deleted at the end of its scope.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(std::filesystem::path path) : path_(std::move(path)) {}
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Where a command leaves the result that a program reads: a file, a pipe, or standard output, which "-" stands for.
+/// From construction on, output of the command goes to standard error if the result goes to standard output.
+class ResultFile {
+ public:
+  /// @throws OutputError if standard output cannot be kept for the result
+  explicit ResultFile(std::filesystem::path path);
+  ~ResultFile();
+  ResultFile(const ResultFile&) = delete;
+  ResultFile& operator=(const ResultFile&) = delete;
+
+  /// As `replace_file`.
+  /// @throws OutputError
+  void write(const std::string& text) const;
+
+ private:
+  std::filesystem::path path_;
+  int standard_output_ = -1;  ///< -1: the result goes elsewhere
+};
 
 }  // namespace vehd

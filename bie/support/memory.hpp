@@ -1,6 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bie/support/instruments.hpp"
 
 namespace vehd {
 
@@ -10,5 +16,32 @@ void keep_freed_memory();
 
 /// Most memory that this process has held.
 std::int64_t peak_memory_bytes();
+
+/// Most memory that each part of the work takes beyond what the process held when the part began, to a page, from the
+/// resident size that Linux keeps. Costs milliseconds a part, so a metered run should not be timed.
+class MemoryMeter : public PartObserver {
+ public:
+  /// Until then nothing is metered. Freed memory goes back to the system at each begin of a part.
+  void start() { active_ = true; }
+  /// Nothing is metered from now on.
+  void stop() { active_ = false; }
+
+  void begin(const std::string& part) override;
+  void end() override;
+
+  /// Bytes of each part so far; empty where the system does not say.
+  [[nodiscard]] const std::map<std::string, std::int64_t>& peaks() const { return peaks_; }
+
+ private:
+  struct OpenPart {
+    std::string name;
+    std::int64_t held, peak;
+  };
+  void look();
+
+  bool active_ = false;
+  std::vector<OpenPart> open_;
+  std::map<std::string, std::int64_t> peaks_;
+};
 
 }  // namespace vehd

@@ -4,7 +4,7 @@
 #include "bie/runs/session.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
-#include "bie/support/output_error.hpp"
+#include "bie/support/file_system.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/forked_ranks.hpp"
 

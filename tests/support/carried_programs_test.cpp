@@ -1,10 +1,9 @@
-#include "bie/support/carried_programs.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
+#include "bie/support/child_process.hpp"
 #include "tests/support/files.hpp"
 
 namespace {

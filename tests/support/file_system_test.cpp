@@ -2,7 +2,6 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "bie/support/output_error.hpp"
 #include "tests/support/files.hpp"
 
 BOOST_AUTO_TEST_SUITE(file_system)

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "bie/support/file_system.hpp"
-#include "bie/support/temporary.hpp"
 
 /// A directory of its own for one test case, removed at the end.
 class TemporaryDirectory {

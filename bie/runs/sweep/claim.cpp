@@ -10,8 +10,6 @@
 #include <mutex>
 
 #include "bie/support/file_system.hpp"
-#include "bie/support/output_error.hpp"
-#include "bie/support/temporary.hpp"
 
 namespace vehd {
 namespace {

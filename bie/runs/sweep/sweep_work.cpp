@@ -17,7 +17,7 @@
 #include "bie/runs/sweep/claim.hpp"
 #include "bie/support/crew.hpp"
 #include "bie/support/errors.hpp"
-#include "bie/support/output_error.hpp"
+#include "bie/support/file_system.hpp"
 #include "bie/support/thread_count.hpp"
 
 namespace vehd {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bie/support/errors.hpp"
-#include "bie/support/output_error.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 
