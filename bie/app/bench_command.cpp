@@ -1,13 +1,13 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
+#include <cstdio>
 #include <memory>
 
-#include "bie/app/bench_printer.hpp"
 #include "bie/app/commands.hpp"
 #include "bie/app/scene_choice.hpp"
-#include "bie/bench/all.hpp"
 #include "bie/bench/benches.hpp"
-#include "bie/bench/redraw.hpp"
+#include "bie/bench/result.hpp"
 #include "bie/scene/given_time.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/scene.hpp"
@@ -19,6 +19,32 @@
 
 namespace vehd {
 namespace {
+
+/// Prints results of benches on standard output, progress on standard error.
+class BenchPrinter : public BenchObserver {
+ public:
+  void section(const std::string& title) override { print("\n== " + title + "\n"); }
+  void note(const std::string& line) override { print(line + "\n"); }
+  void warn(const std::string& problem) override {
+    progress_.clear();
+    spdlog::warn("{}", problem);
+  }
+  void heading(const BenchTable& table) override { print(heading_line(table)); }
+  void row(const BenchTable& table, const std::vector<BenchCell>& row) override { print(row_line(table, row)); }
+  void task(int number, int n_tasks, const std::string& what) override {
+    progress_.begin(static_cast<double>(number - 1) / n_tasks, fmt::format("[{}/{}] {}", number, n_tasks, what));
+  }
+  void status(const RunStatus& status) override { show_run(progress_, status); }
+
+ private:
+  void print(const std::string& text) {
+    progress_.clear();
+    fmt::print("{}", text);
+    std::fflush(stdout);
+  }
+
+  Progress progress_{Progress::suitable_style()};
+};
 
 /// What every bench has.
 struct BenchOptions {

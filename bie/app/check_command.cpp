@@ -7,7 +7,8 @@
 #include "bie/app/commands.hpp"
 #include "bie/app/scene_choice.hpp"
 #include "bie/comparison/check.hpp"
-#include "bie/pictures/differences.hpp"
+#include "bie/comparison/frozen_state.hpp"
+#include "bie/pictures/plots.hpp"
 
 namespace vehd {
 namespace {

@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bie/runs/run_status.hpp"
 #include "bie/support/exit_code.hpp"
 #include "bie/support/file_system.hpp"
+#include "bie/support/progress.hpp"
 #include "bie/support/ranks/ranks.hpp"
 
 /// One function per command: it adds the command's options and a callback that runs it and sets the exit code.
@@ -50,5 +52,8 @@ void add_common_options(CLI::App& command, CommonOptions& options);
 
 /// Writes the machine-readable result if it was asked for.
 void write_json(const CommonOptions& options, const nlohmann::json& result);
+
+/// Shows where a run is, and how long the rest of it may take.
+void show_run(Progress& progress, const RunStatus& status);
 
 }  // namespace vehd

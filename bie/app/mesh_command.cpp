@@ -4,8 +4,8 @@
 
 #include "bie/app/commands.hpp"
 #include "bie/app/scene_choice.hpp"
-#include "bie/comparison/frozen_state.hpp"
 #include "bie/comparison/check.hpp"
+#include "bie/comparison/frozen_state.hpp"
 
 namespace vehd {
 namespace {

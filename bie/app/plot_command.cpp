@@ -5,7 +5,6 @@
 
 #include "bie/app/commands.hpp"
 #include "bie/app/scene_choice.hpp"
-#include "bie/pictures/plot_sweep.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"

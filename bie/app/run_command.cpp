@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "bie/app/commands.hpp"
-#include "bie/app/run_progress.hpp"
 #include "bie/app/scene_choice.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/runs/resumption.hpp"
@@ -121,6 +120,17 @@ ExitCode run(const RunOptions& options, const Ranks& ranks) {
 }
 
 }  // namespace
+
+void show_run(Progress& progress, const RunStatus& status) {
+  const double done = status.time - status.start_time;
+  const std::string left =
+      done > 0.0 ? duration_text(status.seconds / done * std::max(0.0, status.end_time - status.time)) : "?";
+  const std::string unit = status.time_unit.empty() ? "" : " " + status.time_unit;
+  const std::string gap = status.gap.empty() ? "" : "  gap " + status.gap;
+  progress.update(status.end_time > 0.0 ? status.time / status.end_time : 1.0,
+                  fmt::format("step {}  t {:.4g}/{:.4g}{}  dt {:.3g}  drift {:.1e}{}  left {}", status.step,
+                              status.time, status.end_time, unit, status.dt, status.drift, gap, left));
+}
 
 void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("run", "Simulate a scene");

@@ -1,5 +1,3 @@
-#include "bie/bench/all.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -89,7 +89,7 @@ BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& 
 
 /// Which hard cases are run, and where their files go.
 struct StabilityTask {
-  std::vector<std::filesystem::path> scenes;  ///< with their criteria (docs/hard_cases.md)
+  std::vector<std::filesystem::path> scenes;  ///< with their criteria, see StabilityCase
   /// Each run has a folder of its own below `runs`, always a fresh one; its first and last shape go to shapes/NAME.png.
   BenchOutput output;
   bool brief = false;  ///< the short form of every case
@@ -112,5 +112,23 @@ std::filesystem::path draw_case(const RunPaths& paths, const std::filesystem::pa
 /// row for each family, and "faults" with the cases whose verdict names a fault.
 /// @throws InputError for a scene or criterion that cannot be read, Interrupted
 StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interruption, BenchObserver& observer);
+
+/// Which benches are run, and which pages they renew.
+struct AllTask {
+  std::filesystem::path docs;  ///< folder with the pages, images/ and scenes/
+  BenchOutput output;
+  bool quick = false;               ///< few degrees and tolerances, one repeat: shows that it works, measures little
+  std::vector<std::string> only{};  ///< names of benches; empty: all
+};
+
+/// In the order in which they are run.
+std::vector<std::string> names_of_benches();
+
+/// Runs every scene, every bench and the commands by which pages make pictures of their own, and renews the pictures
+/// and the tables of the pages from their results. Benches of the finite elements are left out where these are not
+/// built, and said.
+/// @return name and machine of every bench
+/// @throws InputError if there are no pages
+nlohmann::ordered_json bench_all(const AllTask& task, BenchObserver& observer);
 
 }  // namespace vehd

@@ -29,13 +29,14 @@ std::optional<DegreeOfError> degree_of_error(const ExactProblem& problem, double
   return enough;
 }
 
-std::optional<std::int64_t> memory_of(const ExactProblem& problem, int degree) {
+std::optional<std::int64_t> memory_of(const std::function<void()>& solve) {
+  constexpr const char* part = "solution";
   MemoryMeter meter;
   meter.start();
-  meter.begin(problem.field);
-  (void)problem.solve(degree);
+  meter.begin(part);
+  solve();
   meter.end();
-  const auto found = meter.peaks().find(problem.field);
+  const auto found = meter.peaks().find(part);
   if (found == meter.peaks().end()) return std::nullopt;
   return found->second;
 }

@@ -34,9 +34,9 @@ struct DegreeOfError {
 /// @param lowest  ≥ 1
 std::optional<DegreeOfError> degree_of_error(const ExactProblem& problem, double error, int lowest, int highest);
 
-/// Most memory that a solution takes beyond what the process held before, tables of the degree included, see
-/// MemoryMeter; nothing where the system does not say.
-std::optional<std::int64_t> memory_of(const ExactProblem& problem, int degree);
+/// Most memory that a solution takes beyond what the process held before, see MemoryMeter; nothing where the system
+/// does not say.
+std::optional<std::int64_t> memory_of(const std::function<void()>& solve);
 
 /// Example 1 of the paper: Eq. (35) on shape (33) with σ_i = 2, σ_e = 1 and six point sources.
 /// Source: paper, Example 1 and Figure 1

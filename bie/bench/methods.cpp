@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <ctime>
-#include <functional>
+#include <tuple>
 #include <utility>
 
 #include "bie/bench/benches.hpp"
@@ -68,54 +68,43 @@ struct MethodsProblem {
 };
 constexpr MethodsProblem sources_problem{"sources", "q", "force"}, shape_problem{"shape-flow", "velocity", "tension"};
 
-double processor_seconds(const std::function<void()>& work) {
-  const std::clock_t start = std::clock();
-  work();
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
-MethodLevel level_of_order(int order, int n_scalars) {
+/// Boundary integrals of one degree.
+/// @param n_scalars  unknown fields of its solves
+/// @param solve      is timed
+/// @param errors_of  both errors of what it returns; not timed
+template <typename Solve, typename ErrorsOf>
+MethodLevel integral_level(int order, int n_scalars, int repeats, const Solve& solve, const ErrorsOf& errors_of) {
   MethodLevel level;
   level.curve = bie;
   level.degree = order;
   level.unknowns = std::int64_t{n_scalars} * (order + 1) * (order + 1);
+  while (wants_repeat(level.seconds, repeats)) {
+    const std::clock_t start = std::clock();
+    const auto solved = solve();
+    level.seconds.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    std::tie(level.first, level.second) = errors_of(solved);
+  }
+  level.peak_memory_bytes = memory_of([&] { static_cast<void>(solve()); });
   return level;
-}
-
-std::optional<std::int64_t> memory_of_solve(int order, const std::function<void()>& solve) {
-  const auto solved = [&](int) {
-    solve();
-    return SolvedProblem{};
-  };
-  return memory_of({"solve", solved}, order);
 }
 
 MethodLevel sources_level(int order, int repeats) {
-  MethodLevel level = level_of_order(order, 1);
   const int upsampling = NumericalSettings().upsampling;
-  PointSourceErrors errors;
-  while (wants_repeat(level.seconds, repeats)) {
-    level.seconds.push_back(processor_seconds([&] { errors = solve_example1(order, upsampling).errors; }));
-  }
-  level.first = {errors.charge_l2, errors.charge};
-  level.second = {errors.force_l2, errors.force};
-  level.peak_memory_bytes = memory_of_solve(order, [&] { static_cast<void>(solve_example1(order, upsampling)); });
-  return level;
+  return integral_level(
+      order, 1, repeats, [&] { return solve_example1(order, upsampling).errors; },
+      [](const PointSourceErrors& errors) {
+        return std::pair(MethodError{errors.charge_l2, errors.charge}, MethodError{errors.force_l2, errors.force});
+      });
 }
 
 /// The unknowns of its solves are q and λ.
 MethodLevel shape_level(const ShapeFlowProblem& problem, int order, int repeats) {
-  MethodLevel level = level_of_order(order, 2);
-  ShapeFlowErrors errors;
-  while (wants_repeat(level.seconds, repeats)) {
-    std::optional<SolvedFields> solved;
-    level.seconds.push_back(processor_seconds([&] { solved = problem.solve(order); }));
-    errors = problem.errors_of(*solved);
-  }
-  level.first = errors.velocity;
-  level.second = errors.tension;
-  level.peak_memory_bytes = memory_of_solve(order, [&] { static_cast<void>(problem.solve(order)); });
-  return level;
+  return integral_level(
+      order, 2, repeats, [&] { return problem.solve(order); },
+      [&](const SolvedFields& solved) {
+        const ShapeFlowErrors errors = problem.errors_of(solved);
+        return std::pair(errors.velocity, errors.tension);
+      });
 }
 
 /// Runs the levels of finite elements; each is a process of its own.

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "bie/bench/plot_axes.hpp"
 #include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/shown_numbers.hpp"
 
@@ -110,25 +109,21 @@ void add_bars(const BenchPanel& panel, BenchScript& script) {
   const std::vector<double> ticks = round_ticks(0.0, top, 4);
   int power = 0;
   const std::vector<std::string> texts = tick_texts(ticks, power);
-  std::vector<std::string> places;
-  for (std::size_t i = 0; i < ticks.size(); ++i) {
-    places.push_back(fmt::format("{} {:.9g}", gnuplot_quoted(texts[i]), ticks[i]));
-  }
   const std::string label = power == 0 ? panel.y_label : fmt::format("{} / 10^{{{}}}", panel.y_label, power);
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < bars.groups.size(); ++i) {
-    // One word a line.
-    std::string name = bars.groups[i];
+  // One word a line.
+  std::vector<std::string> names = bars.groups;
+  std::vector<double> middles;
+  for (std::string& name : names) {
     std::ranges::replace(name, ' ', '\n');
-    names.push_back(fmt::format("{} {}", gnuplot_quoted(name), i));
+    middles.push_back(static_cast<double>(middles.size()));
   }
   script.text += fmt::format("set bmargin at screen {:.5f}\n", around_bottom_of_bars / panel_height);
   script.text += fmt::format(
-      "unset logscale; unset label; set xrange [-0.5:{}-0.5]; set yrange [0:{:.9g}]; set ytics ({}); set ylabel {}\n"
-      "set xlabel {} offset 0,-0.7; set xtics ({}) scale 0 offset 0,0.3; unset grid; set grid ytics lc rgb '#e4e4e4' "
+      "unset logscale; unset label; set xrange [-0.5:{}-0.5]; set yrange [0:{:.9g}]; set ytics {}; set ylabel {}\n"
+      "set xlabel {} offset 0,-0.7; set xtics {} scale 0 offset 0,0.3; unset grid; set grid ytics lc rgb '#e4e4e4' "
       "lt 1\n",
-      bars.groups.size(), top, fmt::join(places, ", "), gnuplot_quoted(label), gnuplot_quoted(panel.x_label),
-      fmt::join(names, ", "));
+      bars.groups.size(), top, gnuplot_ticks(texts, ticks), gnuplot_quoted(label), gnuplot_quoted(panel.x_label),
+      gnuplot_ticks(names, middles));
   const double width = 0.8 / static_cast<double>(bars.bars.size());
   std::string plot;
   for (std::size_t k = 0; k < bars.bars.size(); ++k) {

@@ -1,9 +1,9 @@
-#include "bie/bench/plot_axes.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "bie/bench/picture.hpp"
 
 namespace vehd {
 namespace {

@@ -1,158 +1,22 @@
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
 #include <numeric>
 
 #include "bie/bench/benches.hpp"
+#include "bie/bench/stability_case.hpp"
 #include "bie/files/run_reader.hpp"
 #include "bie/pictures/plots.hpp"
 #include "bie/pictures/shape_field.hpp"
 #include "bie/runs/run_loop.hpp"
 #include "bie/runs/verdict.hpp"
 #include "bie/scene/effective_scene.hpp"
-#include "bie/scene/read/toml_values.hpp"
-#include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
-
-/// How a hard case has to end: at its end time and trustworthy; at its end time with a verdict that names what is not;
-/// before its end, with a reason.
-enum class ExpectedEnd { completed, flagged, stops };
-
-/// A bound on one column of history.csv.
-struct ColumnBound {
-  std::string column;
-  double bound;
-};
-
-/// A scene with its pass criterion, which stands at the top of the scene file in lines "#: key = value" (TOML):
-/// family, expect (an ExpectedEnd), short_end_time, most (largest magnitudes of columns), falls (columns that never
-/// rise), steady (largest relative changes of columns in the second half of the run). Without bounds of their own, area
-/// and volume may drift by 1e-6.
-struct StabilityCase {
-  std::string name;
-  std::string family;
-  Scene scene;
-  double short_end_time = 0.0;
-  ExpectedEnd expect = ExpectedEnd::completed;
-  std::vector<ColumnBound> most;
-  std::vector<std::string> falls;
-  std::vector<ColumnBound> steady;
-};
-
-/// The criterion as TOML, with every other line empty so that line numbers are those of the file.
-std::string criterion_text(const std::filesystem::path& path) {
-  constexpr std::string_view mark = "#:";
-  std::ifstream stream(path);
-  std::string text;
-  for (std::string line; std::getline(stream, line);) {
-    if (line.starts_with(mark)) text += line.substr(mark.size());
-    text += '\n';
-  }
-  return text;
-}
-
-class Criterion {
- public:
-  explicit Criterion(const std::filesystem::path& path) : file_(path.string()) {
-    try {
-      table_ = toml::parse(criterion_text(path), file_);
-    } catch (const toml::parse_error& error) {
-      throw InputError(fmt::format("{}:{}: {}", file_, error.source().begin.line, error.description()));
-    }
-    for (const auto& [key, node] : table_) {
-      static constexpr std::array keys = {"family", "expect", "short_end_time", "most", "falls", "steady"};
-      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
-        refuse(node, fmt::format("unknown key \"{}\"; accepted: {}", key.str(), fmt::join(keys, ", ")));
-      }
-    }
-  }
-
-  [[nodiscard]] std::string text(const char* key) const {
-    const toml::value<std::string>* value = required(key, "a text").as_string();
-    if (value == nullptr) refuse_value(key, *table_.get(key), "a text");
-    return value->get();
-  }
-  [[nodiscard]] double number(const char* key) const { return number(key, required(key, "a number")); }
-  [[nodiscard]] std::vector<ColumnBound> bounds(const char* key) const {
-    std::vector<ColumnBound> result;
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) return result;
-    const toml::table* table = node->as_table();
-    if (table == nullptr) refuse_value(key, *node, "a table of columns and their bounds");
-    for (const auto& [column, bound] : *table) result.push_back({std::string(column), number(column, bound)});
-    return result;
-  }
-  [[nodiscard]] std::vector<std::string> names(const char* key) const {
-    constexpr const char* accepted = "a list of columns in quotes";
-    std::vector<std::string> result;
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) return result;
-    const toml::array* array = node->as_array();
-    if (array == nullptr) refuse_value(key, *node, accepted);
-    for (const toml::node& entry : *array) {
-      const toml::value<std::string>* name = entry.as_string();
-      if (name == nullptr) refuse_value(key, entry, accepted);
-      result.push_back(name->get());
-    }
-    return result;
-  }
-  [[nodiscard]] ExpectedEnd expected_end() const {
-    const std::string word = text("expect");
-    if (word == "completed") return ExpectedEnd::completed;
-    if (word == "flagged") return ExpectedEnd::flagged;
-    if (word == "stops") return ExpectedEnd::stops;
-    refuse(*table_.get("expect"), fmt::format("\"{}\"; accepted: completed, flagged, stops", word));
-  }
-
- private:
-  [[noreturn]] void refuse(const toml::node& node, const std::string& what) const {
-    throw InputError(fmt::format("{}: {}", place(node, file_), what));
-  }
-  [[noreturn]] void refuse_value(std::string_view key, const toml::node& node, const char* accepted) const {
-    refuse(node, fmt::format("\"{}\" is {}; accepted: {}", key, shown(node), accepted));
-  }
-  [[nodiscard]] const toml::node& required(const char* key, const char* type) const {
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) throw InputError(fmt::format("{}: the criterion lacks {} \"{}\"", file_, type, key));
-    return *node;
-  }
-  [[nodiscard]] double number(std::string_view key, const toml::node& node) const {
-    const std::optional<double> value = number_of(node);
-    if (!value || !std::isfinite(*value)) refuse_value(key, node, "a finite number");
-    return *value;
-  }
-
-  std::string file_;
-  toml::table table_;
-};
-
-/// @throws InputError naming file and line
-StabilityCase read_stability_case(const std::filesystem::path& path) {
-  StabilityCase result;
-  result.scene = read_scene(path);
-  const Criterion criterion(path);
-  result.name = path.stem().string();
-  result.family = criterion.text("family");
-  result.short_end_time = criterion.number("short_end_time");
-  result.expect = criterion.expected_end();
-  result.most = criterion.bounds("most");
-  result.falls = criterion.names("falls");
-  result.steady = criterion.bounds("steady");
-  constexpr double largest_drift = 1e-6;
-  for (const char* drift : {"area_drift", "volume_drift"}) {
-    const auto same = [&](const ColumnBound& bound) { return bound.column == drift; };
-    if (std::none_of(result.most.begin(), result.most.end(), same)) result.most.push_back({drift, largest_drift});
-  }
-  return result;
-}
 
 /// One line of a criterion, measured.
 struct Finding {

@@ -122,8 +122,8 @@ void require_plain_charging(const FrozenState& frozen) {
   }
 }
 
-}  // namespace
-
+/// @throws InputError if the scene has something that the finite-element side does not know, or knows of one vesicle
+///                    alone
 CheckContents check_contents(const FrozenState& frozen) {
   const Model& model = frozen.model;
   CheckContents contents;
@@ -160,6 +160,8 @@ CheckContents check_contents(const FrozenState& frozen) {
   }
   return contents;
 }
+
+}  // namespace
 
 ElectricParameters electric_at(const FrozenState& frozen, std::size_t vesicle) {
   if (!frozen.model.electric) return {};

@@ -40,10 +40,6 @@ struct CheckContents {
   bool flow = false;      ///< a membrane that moves
 };
 
-/// What can be compared at the frozen time.
-/// @throws InputError if the finite-element side lacks an effect of the scene, or has it for one vesicle only
-CheckContents check_contents(const FrozenState& frozen);
-
 /// A frozen state as both methods are given it.
 struct CheckProblem {
   FrozenState frozen;
@@ -52,7 +48,8 @@ struct CheckProblem {
   CheckSamples samples;        ///< of one vesicle alone
 };
 
-/// @throws InputError as check_contents and total_force
+/// Contents, forces and sample points of a frozen state.
+/// @throws InputError if the finite-element side lacks an effect of the scene, or has it for one vesicle only
 CheckProblem check_problem(const FrozenState& frozen);
 
 /// f on the fluid per area, coefficients [n_coefficients x 3]: f_b + f_λ − f_E of the fields, and all other forces on

@@ -1,5 +1,3 @@
-#include "bie/pictures/differences.hpp"
-
 #include <fmt/format.h>
 
 #include <fstream>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "bie/pictures/gnuplot.hpp"
+#include "bie/pictures/plots.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 

@@ -1,6 +1,7 @@
 #include "bie/pictures/gnuplot.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cerrno>
 #include <cmath>
@@ -119,6 +120,14 @@ std::string gnuplot_quoted(const std::string& text) {
         is_letter_or_blank(byte) ? std::string(1, byte) : fmt::format("\\{:03o}", static_cast<unsigned char>(byte));
   }
   return quoted + "\"";
+}
+
+std::string gnuplot_ticks(const std::vector<std::string>& texts, const std::vector<double>& places) {
+  std::vector<std::string> ticks;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    ticks.push_back(fmt::format("{} {:.12g}", gnuplot_quoted(texts[i]), places[i]));
+  }
+  return fmt::format("({})", fmt::join(ticks, ", "));
 }
 
 std::string gnuplot_literal(const std::string& text) {

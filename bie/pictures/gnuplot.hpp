@@ -61,6 +61,9 @@ std::string gnuplot_terminal(PictureFormat format, const PictureSize& size);
 /// nothing in the text can end the string or start a command.
 std::string gnuplot_quoted(const std::string& text);
 
+/// Ticks of an axis, one text at each place, as `set xtics` takes them.
+std::string gnuplot_ticks(const std::vector<std::string>& texts, const std::vector<double>& places);
+
 /// A name as enhanced text that prints it as it is: without this, an underscore would lower the next letter. Control
 /// characters become blanks.
 std::string gnuplot_literal(const std::string& text);

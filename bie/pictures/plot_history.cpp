@@ -47,30 +47,15 @@ std::vector<double> reach_of_curve(const HistoryCurve& curve) {
 }
 
 Axis axis_of(const std::vector<double>& values, const std::string& label, double room) {
-  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    lower = std::min(lower, value);
-    upper = std::max(upper, value);
-  }
-  // Rounding of a constant is no change.
-  constexpr double rounding = 1e-9;
-  const double size = std::max(std::abs(lower), std::abs(upper));
-  if (upper - lower <= rounding * size) {
-    const double about = size > 0.0 ? 0.1 * size : 1.0;
-    lower -= about;
-    upper += about;
-  }
+  auto [lower, upper] = finite_range(values);
+  const double about = room_around_constant(lower, upper);
+  lower -= about;
+  upper += about;
   Axis axis{lower - room * (upper - lower), upper + room * (upper - lower), {}, label, {}};
   const std::vector<double> ticks = round_ticks(axis.lower, axis.upper, 4);
   int power = 0;
-  const std::vector<std::string> texts = tick_texts(ticks, power);
-  std::vector<std::string> places;
-  for (std::size_t i = 0; i < ticks.size(); ++i) {
-    places.push_back(fmt::format("{} {:.12g}", gnuplot_quoted(texts[i]), ticks[i]));
-  }
-  axis.ticks = fmt::format("({})", fmt::join(places, ", "));
-  axis.texts = texts;
+  axis.texts = tick_texts(ticks, power);
+  axis.ticks = gnuplot_ticks(axis.texts, ticks);
   if (power != 0) axis.label += fmt::format(" / 10^{{{}}}", power);
   return axis;
 }

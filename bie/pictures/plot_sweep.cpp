@@ -1,5 +1,3 @@
-#include "bie/pictures/plot_sweep.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <limits>
 
 #include "bie/pictures/page.hpp"
+#include "bie/pictures/plots.hpp"
 #include "bie/pictures/sweep_frame.hpp"
 #include "bie/pictures/sweep_map.hpp"
 #include "bie/pictures/sweep_means.hpp"

@@ -9,6 +9,7 @@
 #include "bie/files/run_reader.hpp"
 #include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/shape_field.hpp"
+#include "bie/pictures/sweep_rows.hpp"
 #include "bie/runs/run_directory.hpp"
 #include "bie/support/progress.hpp"
 
@@ -75,5 +76,34 @@ FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::
 /// @return the movie
 /// @throws InputError if the run cannot be read, or gnuplot or ffmpeg is missing
 std::filesystem::path plot_movie(const PlotTask& task, Progress& progress);
+
+/// Which pictures of a sweep are drawn, and where they go.
+struct SweepPlotTask {
+  SweepPaths paths;
+  std::vector<std::string> columns;  ///< plain names; empty: all but the time
+  std::optional<double> border;      ///< value of a column at which a border is shown; absent: see below
+  std::filesystem::path curves;      ///< drawn over maps, see read_sweep_curves; empty: none
+  std::filesystem::path output;      ///< folder
+  PictureFormat format = PictureFormat::png;
+};
+
+/// Draws the table of a sweep: of one key, or of several that change together, OUTPUT/lines.FORMAT, each column against
+/// the (first) key; of a grid of two keys OUTPUT/map_COLUMN.FORMAT for each column, a cell for each run; of a sweep
+/// over a seed as well means over it, OUTPUT/lines.FORMAT and OUTPUT/lines.csv, see draw_sweep_means. Runs that were
+/// refused have no point and a white cell; those that stopped are grey points and have a cross in their cell. A border
+/// is a line at a value of the column, 1 of a ratio of lengths, 0 of a column of both signs; in a map between the cells
+/// on whose sides the column is below and above it.
+/// @return the pictures
+/// @throws InputError if there is no table, if it has no such column, or of three keys and more
+std::vector<std::filesystem::path> plot_sweep(const SweepPlotTask& task);
+
+/// DIR/differences.dat: text, columns named in the first line, one block of lattice lines for every face.
+std::filesystem::path differences_file(const std::filesystem::path& directory);
+
+/// Draws DIR/differences.png, the differences of both methods on the membrane, from the data file that the
+/// finite-element side left in DIR.
+/// @return false if it left none
+/// @throws InputError if gnuplot is missing or reports an error
+bool draw_differences(const std::filesystem::path& directory);
 
 }  // namespace vehd

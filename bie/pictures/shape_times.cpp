@@ -23,17 +23,7 @@ Vector3 direction_number(int i) {
   return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
-}  // namespace
-
-std::vector<std::size_t> spread_evenly(std::size_t n, std::size_t most) {
-  std::vector<std::size_t> chosen;
-  const std::size_t count = std::min(n, most);
-  for (std::size_t i = 0; i < count; ++i) {
-    chosen.push_back(count == 1 ? 0 : (i * (n - 1) + (count - 1) / 2) / (count - 1));
-  }
-  return chosen;
-}
-
+/// Numbers that say how far a shape reaches, whatever its place and its grid: lengths.
 Vector outline_of(const RunReader& run, std::size_t snapshot) {
   const ShapeField& none = shape_field("none");
   const Shape shape = shape_of(read_shape(run.snapshot(snapshot), none), none, outline_order);
@@ -47,6 +37,17 @@ Vector outline_of(const RunReader& run, std::size_t snapshot) {
         std::pow(squares.cwiseAbs2().dot(shares), 0.25);
   }
   return outline;
+}
+
+}  // namespace
+
+std::vector<std::size_t> spread_evenly(std::size_t n, std::size_t most) {
+  std::vector<std::size_t> chosen;
+  const std::size_t count = std::min(n, most);
+  for (std::size_t i = 0; i < count; ++i) {
+    chosen.push_back(count == 1 ? 0 : (i * (n - 1) + (count - 1) / 2) / (count - 1));
+  }
+  return chosen;
 }
 
 std::vector<std::size_t> spread_by_change(const std::vector<double>& times, const Matrix& rows, std::size_t most) {

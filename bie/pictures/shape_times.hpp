@@ -10,9 +10,6 @@ namespace vehd {
 /// Numbers of at most so many of n snapshots, evenly spread with the first and the last.
 std::vector<std::size_t> spread_evenly(std::size_t n, std::size_t most);
 
-/// Numbers that say how far a shape reaches, whatever its place and its grid: lengths.
-Vector outline_of(const RunReader& run, std::size_t snapshot);
-
 /// Numbers of the entries between which the rows change by equal amounts, in ascending order, the first and the last
 /// among them; a tenth of the way counts the time, so that a shape at rest is not left out.
 /// @param rows  one for each time, [n_times x n_numbers]

@@ -24,6 +24,19 @@ int exponent_of(double value) { return value == 0.0 ? 0 : static_cast<int>(std::
 /// Numbers beyond these are written with a power of ten.
 constexpr double longest = 1e5, shortest = 1e-3;
 
+/// A number with this many digits: "0.25", "1.56 × 10^{-5}".
+std::string number_text(double value, int digits) {
+  if (value == 0.0) return "0";
+  const double rounded = std::stod(fmt::format("{:.{}e}", value, digits - 1));
+  const double size = std::abs(rounded);
+  if (size < longest && size >= shortest) {
+    return with_minus(fmt::format("{:.{}f}", rounded, std::max(0, digits - 1 - exponent_of(rounded))));
+  }
+  const int power = exponent_of(rounded);
+  return with_minus(fmt::format("{:.{}f} × 10^{{{}}}", rounded / std::pow(10.0, power), digits - 1,
+                                with_minus(std::to_string(power))));
+}
+
 }  // namespace
 
 double round_below(double length) {
@@ -73,18 +86,6 @@ std::vector<std::string> tick_texts(const std::vector<double>& ticks, int& power
   std::vector<std::string> texts;
   for (const double tick : ticks) texts.push_back(with_minus(fmt::format("{:.{}f}", tick / unit + 0.0, decimals)));
   return texts;
-}
-
-std::string number_text(double value, int digits) {
-  if (value == 0.0) return "0";
-  const double rounded = std::stod(fmt::format("{:.{}e}", value, digits - 1));
-  const double size = std::abs(rounded);
-  if (size < longest && size >= shortest) {
-    return with_minus(fmt::format("{:.{}f}", rounded, std::max(0, digits - 1 - exponent_of(rounded))));
-  }
-  const int power = exponent_of(rounded);
-  return with_minus(fmt::format("{:.{}f} × 10^{{{}}}", rounded / std::pow(10.0, power), digits - 1,
-                                with_minus(std::to_string(power))));
 }
 
 std::vector<std::string> distinct_texts(const std::vector<double>& values) {

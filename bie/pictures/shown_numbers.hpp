@@ -26,9 +26,6 @@ std::vector<double> round_ticks(double lower, double upper, int least = 3);
 /// and given back by `power`.
 std::vector<std::string> tick_texts(const std::vector<double>& ticks, int& power);
 
-/// A number with this many digits: "0.25", "1.56 × 10^{-5}".
-std::string number_text(double value, int digits);
-
 /// Texts of the same number of digits, as many as make different numbers differ, three at least.
 std::vector<std::string> distinct_texts(const std::vector<double>& values);
 

@@ -14,6 +14,20 @@
 namespace vehd {
 namespace {
 
+/// Seen from far off in the direction `to_eye`: z points upwards, y where one looks along z.
+/// @return rows: right, up, towards the eye; world coordinates become those of the picture
+Matrix3 view_along(const Vector3& to_eye) {
+  const Vector3 eye = to_eye.normalized();
+  constexpr double steep = 0.99;
+  const Vector3 upward = std::abs(eye.z()) > steep ? Vector3::UnitY() : Vector3::UnitZ();
+  const Vector3 right = upward.cross(eye).normalized();
+  Matrix3 frame;
+  frame.row(0) = right;
+  frame.row(1) = eye.cross(right);
+  frame.row(2) = eye;
+  return frame;
+}
+
 Matrix3 view_of_axis(int axis) {
   // Along y from the front, so that x is to the right.
   return view_along(axis == 1 ? Vector3(-Vector3::UnitY()) : Vector3(Vector3::Unit(axis)));
@@ -56,18 +70,6 @@ Matrix3 weights_of(const Scene& scene, const Matrix3& gyration) {
 }  // namespace
 
 Vector3 vector_of(const Triple& triple) { return {triple[0], triple[1], triple[2]}; }
-
-Matrix3 view_along(const Vector3& to_eye) {
-  const Vector3 eye = to_eye.normalized();
-  constexpr double steep = 0.99;
-  const Vector3 upward = std::abs(eye.z()) > steep ? Vector3::UnitY() : Vector3::UnitZ();
-  const Vector3 right = upward.cross(eye).normalized();
-  Matrix3 frame;
-  frame.row(0) = right;
-  frame.row(1) = eye.cross(right);
-  frame.row(2) = eye;
-  return frame;
-}
 
 Matrix3 parse_view(const std::string& text) {
   constexpr std::array names{"x", "y", "z"};

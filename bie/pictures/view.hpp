@@ -12,10 +12,6 @@ namespace vehd {
 /// The same three numbers.
 Vector3 vector_of(const Triple& triple);
 
-/// Seen from far off in the direction `to_eye`: z points upwards, y where one looks along z.
-/// @return rows: right, up, towards the eye; world coordinates become those of the picture
-Matrix3 view_along(const Vector3& to_eye);
-
 /// "x" (y to the right, z upwards), "y" (x to the right, z upwards), "z" (x to the right, y upwards) or a direction
 /// towards the eye, "1,1,0.5".
 /// @throws InputError for anything else

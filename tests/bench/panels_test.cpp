@@ -2,7 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "bie/bench/redraw.hpp"
+#include "bie/bench/result.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/files.hpp"
 

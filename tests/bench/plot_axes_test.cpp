@@ -1,7 +1,7 @@
-#include "bie/bench/plot_axes.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+
+#include "bie/bench/picture.hpp"
 
 using namespace vehd;
 

@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "bie/pictures/plot_sweep.hpp"
+#include "bie/pictures/plots.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/files.hpp"
 
