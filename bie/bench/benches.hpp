@@ -8,7 +8,7 @@
 #include "bie/bench/result.hpp"
 #include "bie/runs/run_directory.hpp"
 #include "bie/scene/scene.hpp"
-#include "bie/stepping/time/snapshot_times.hpp"
+#include "bie/stepping/time/events.hpp"
 #include "bie/support/interruption.hpp"
 
 namespace vehd {

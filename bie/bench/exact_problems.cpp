@@ -8,7 +8,7 @@
 #include "bie/potentials/translating_prolate.hpp"
 #include "bie/scene/shapes/initial_shape.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/space/membrane_at.hpp"
+#include "bie/stepping/space/discretisation.hpp"
 #include "bie/support/memory.hpp"
 
 namespace vehd {

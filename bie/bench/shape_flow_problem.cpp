@@ -7,8 +7,8 @@
 
 #include "bie/comparison/check_input.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/space/membrane_at.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/space/discretisation.hpp"
+#include "bie/stepping/state/state.hpp"
 
 namespace vehd {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "bie/bench/benches.hpp"
 #include "bie/bench/step_timer.hpp"
-#include "bie/stepping/state/state_difference.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/machine_peak.hpp"
 #include "bie/support/memory.hpp"

@@ -13,7 +13,7 @@
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/evaluation/lab_frame_output.hpp"
 #include "bie/stepping/space/resolution.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/errors.hpp"
 

@@ -20,9 +20,8 @@
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/solve/flow_equations.hpp"
 #include "bie/stepping/space/discretisation.hpp"
-#include "bie/stepping/space/membrane_at.hpp"
 #include "bie/stepping/state/composition.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

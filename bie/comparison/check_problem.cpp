@@ -13,7 +13,7 @@
 #include "bie/physics/charge_density.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
-#include "bie/stepping/space/membrane_at.hpp"
+#include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/support/errors.hpp"
 

@@ -19,7 +19,7 @@
 #include "bie/scene/vesicles.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

@@ -16,8 +16,8 @@
 #include "bie/scene/reader.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/space/membrane_at.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/space/discretisation.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

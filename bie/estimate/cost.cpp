@@ -10,7 +10,7 @@
 #include "bie/scene/accuracy.hpp"
 #include "bie/scene/problem.hpp"
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/memory.hpp"

@@ -17,7 +17,7 @@
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/stepping/time/deferred_correction.hpp"
-#include "bie/stepping/time/step_plan.hpp"
+#include "bie/stepping/time/step_control.hpp"
 
 namespace vehd {
 namespace {

@@ -7,7 +7,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/surface_mesh.hpp"
 #include "bie/stepping/state/field_table.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/support/complex_columns.hpp"
 
 namespace vehd {

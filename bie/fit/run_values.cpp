@@ -13,7 +13,7 @@
 #include "bie/scene/units.hpp"
 #include "bie/sphere/grid.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/evaluation/field_poles.hpp"
+#include "bie/stepping/evaluation/diagnose.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

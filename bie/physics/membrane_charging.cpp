@@ -268,15 +268,11 @@ Unknowns steady_charges(const ChargingMembrane& of, const Vector& potential) {
           membrane.fine.analyze(Vector((out - in) * current)) / c};
 }
 
-namespace {
-
-Vector without_mean(const Membrane& membrane, Vector values) {
+Vector without_net_current(const Membrane& membrane, Vector current) {
   const Vector& area = membrane.surface.quadrature;
-  values.array() -= values.dot(area) / area.sum();
-  return values;
+  current.array() -= current.dot(area) / area.sum();
+  return current;
 }
-
-}  // namespace
 
 std::vector<RelaxingField> fields_of_charges(const std::vector<ChargingMembrane>& membranes,
                                              const Interaction& interaction, const std::vector<Unknowns>& charges,
@@ -294,8 +290,8 @@ std::vector<RelaxingField> fields_of_charges(const std::vector<ChargingMembrane>
 
 Unknowns charge_rates(const ChargingMembrane& of, const RelaxingField& field, const Vector& current) {
   const auto& [electric, membrane] = of.in_field;
-  const Vector in = without_mean(membrane, -electric.conductivity_in * field.traces.flux_in);
-  const Vector out = without_mean(membrane, -electric.conductivity_out * field.traces.flux_out);
+  const Vector in = without_net_current(membrane, -electric.conductivity_in * field.traces.flux_in);
+  const Vector out = without_net_current(membrane, -electric.conductivity_out * field.traces.flux_out);
   const double c = of.charging.capacitance;
   return {{}, membrane.fine.analyze(Vector(in - current)) / c, membrane.fine.analyze(Vector(in - out)) / c};
 }

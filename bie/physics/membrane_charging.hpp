@@ -76,6 +76,10 @@ std::vector<RelaxingField> fields_of_charges(const std::vector<ChargingMembrane>
                                              const Interaction& interaction, const std::vector<Unknowns>& charges,
                                              double tolerance, std::vector<Vector> start);
 
+/// A current on a closed membrane, values on the upsampled grid, less its mean: no net current leaves, which the
+/// quadrature sees only up to its error.
+Vector without_net_current(const Membrane& membrane, Vector current);
+
 /// Rates of the charges on material points, over C_m: D q_i/Dt = σ_i E_i − I, D q_e/Dt = −σ_e E_e + I with the current
 /// I through the membrane. No net current leaves a closed membrane on either side.
 /// @param current  I, outwards, values on the upsampled grid, [n_points]

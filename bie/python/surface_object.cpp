@@ -6,7 +6,7 @@
 
 #include "bie/sphere/degrees.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/space/membrane_at.hpp"
+#include "bie/stepping/space/discretisation.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd::python {

@@ -14,7 +14,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/space/resolution.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 

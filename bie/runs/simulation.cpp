@@ -12,7 +12,7 @@
 #include "bie/scene/vesicles.hpp"
 #include "bie/scene/waveforms.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/support/ranks/parcel.hpp"
 
 namespace vehd {

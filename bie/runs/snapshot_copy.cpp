@@ -2,7 +2,7 @@
 
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/state/field_table.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 
 namespace vehd {
 

@@ -4,12 +4,24 @@
 #include <cmath>
 
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
 // Degree and quadrature that follow the state.
 namespace vehd {
+
+namespace {
+
+/// Share of the target of x and V_m below which the degree falls: far enough that the degree does not rise again
+/// at once.
+constexpr double coarsening_truncation = 0.1;
+/// Share of the tolerance of the quadrature below which a coarser level, two digits worse, would still do.
+constexpr double coarsening_quadrature = 1e-2;
+/// Steps between two attempts to save work: one that fails every time costs little of what a run does.
+constexpr std::int64_t coarsening_interval = 4;
+
+}  // namespace
 
 int Evolution::lowest_order() const { return std::min(lowest_adaptive_order, setup_.settings.order); }
 
@@ -17,11 +29,11 @@ double Evolution::truncation_target() const {
   return thresholds::truncation_share * setup_.control.tolerance / growth_;
 }
 
-void Evolution::lower_quadrature_if_idle(std::size_t a) {
+void Evolution::coarsen_quadrature(std::size_t a) {
   const std::int64_t level = state_.vesicles[a].quadrature_level;
   if (level == 0) return;
   const double error = evaluation_.diagnostics.vesicles[a].quadrature_error;
-  if (error > thresholds::idle_quadrature * setup_.settings.quadrature_tolerance) return;
+  if (error > coarsening_quadrature * setup_.settings.quadrature_tolerance) return;
   change_space(a, order(a), level - 1);
 }
 
@@ -73,19 +85,19 @@ bool Evolution::raise_orders_for(const StepAttempt& attempt, std::vector<bool>& 
   return any;
 }
 
-void Evolution::lower_order_if_idle(std::size_t a) {
+void Evolution::coarsen_order(std::size_t a) {
   const int lowest = std::max(lowest_order(), order_of_gap(gap_, a));
   if (!adapts() || order(a) <= lowest) return;
-  const double idle = thresholds::idle_truncation * truncation_target();
+  const double target = coarsening_truncation * truncation_target();
   const int highest = order(a) - 2 * thresholds::least_raise;
   // Of the degrees that would be the upper half then, another share can be seen than of those that are it now.
-  const auto is_idle_at = [&](int order) {
+  const auto suffices = [&](int order) {
     State cut = state_;
     cut.vesicles[a] = resized(std::move(cut.vesicles[a]), order);
-    return resolution(cut, a).remainder() <= idle;
+    return resolution(cut, a).remainder() <= target;
   };
-  int enough = resolution(state_, a).order_for(idle, lowest, order(a));
-  while (enough <= highest && !is_idle_at(enough)) enough += thresholds::least_raise;
+  int enough = resolution(state_, a).order_for(target, lowest, order(a));
+  while (enough <= highest && !suffices(enough)) enough += thresholds::least_raise;
   if (enough <= highest) change_space(a, enough, state_.vesicles[a].quadrature_level);
 }
 
@@ -97,12 +109,12 @@ void Evolution::try_to_coarsen(Coarsening coarsening, std::size_t a) {
   }
 }
 
-void Evolution::coarsen_if_idle() {
-  if (state_.step % thresholds::economy_interval != 0) return;
+void Evolution::coarsen() {
+  if (state_.step % coarsening_interval != 0) return;
   for (std::size_t a = 0; a < state_.vesicles.size(); ++a) {
     if (setup_.symmetry.exchange.is_image(a)) continue;
-    try_to_coarsen(&Evolution::lower_order_if_idle, a);
-    try_to_coarsen(&Evolution::lower_quadrature_if_idle, a);
+    try_to_coarsen(&Evolution::coarsen_order, a);
+    try_to_coarsen(&Evolution::coarsen_quadrature, a);
   }
 }
 

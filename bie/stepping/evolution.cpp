@@ -10,11 +10,10 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/operator_checks.hpp"
 #include "bie/stepping/evaluation/poration_load.hpp"
-#include "bie/stepping/first_step.hpp"
 #include "bie/stepping/state/composition.hpp"
-#include "bie/stepping/state/exchange.hpp"
-#include "bie/stepping/state/resized.hpp"
-#include "bie/stepping/thresholds.hpp"
+#include "bie/stepping/state/state.hpp"
+#include "bie/stepping/state/symmetry.hpp"
+#include "bie/stepping/time/step_control.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/side_by_side.hpp"
 
@@ -22,10 +21,16 @@ namespace vehd {
 
 namespace {
 
-constexpr std::int64_t highest_level = thresholds::quadrature_levels.size() - 1;
+/// Attempts that begin with the extrapolation of the last step, which may be what fails: it crosses no jump.
+constexpr int most_tries_from_past = 2;
+/// Nodes of the singular quadrature at each level, relative to those of the settings. Between two levels its error
+/// falls by two digits and more.
+constexpr std::array quadrature_levels = {1.0, 1.75, 2.6};
+
+constexpr std::int64_t highest_level = quadrature_levels.size() - 1;
 
 ResolutionLevel level_of(int order, std::int64_t quadrature_level) {
-  return {order, thresholds::quadrature_levels.at(static_cast<std::size_t>(quadrature_level))};
+  return {order, quadrature_levels.at(static_cast<std::size_t>(quadrature_level))};
 }
 
 /// The spaces that the vesicles of a state are in.
@@ -138,8 +143,8 @@ void Evolution::change_space(std::size_t a, int order, std::int64_t quadrature_l
   }
   Evaluation evaluation = evaluate(setup_.model, discretisation, state, instruments_);
   // Less work that is not exact enough would have to be undone at the next step.
-  const bool is_economy = order < this->order(a) || quadrature_level < state_.vesicles[a].quadrature_level;
-  if (is_economy && evaluation.diagnostics.vesicles[a].quadrature_is_coarse) return;
+  const bool coarsens = order < this->order(a) || quadrature_level < state_.vesicles[a].quadrature_level;
+  if (coarsens && evaluation.diagnostics.vesicles[a].quadrature_is_coarse) return;
   discretisation_ = std::move(discretisation);
   replace(std::move(state), std::move(evaluation));
 }
@@ -189,8 +194,8 @@ void Evolution::arrive(State state) {
   }
   note_first_crossings(has_former ? &evaluation_ : nullptr, state_.time, before ? *before : evaluation, evaluation,
                        state);
-  tell_crossings(state, state.time, evaluation);
-  if (before) tell_crossings(state, state.time, *before);
+  report_crossings(state, state.time, evaluation);
+  if (before) report_crossings(state, state.time, *before);
   discretisation_ = std::move(discretisation);
   // No polynomial goes on through a jump.
   if (before) state = without_past(std::move(state));
@@ -256,7 +261,7 @@ Evolution::Reaction Evolution::react(StepAttempt& attempt, const StepPlan& plan,
     set_next_size(setup_.control, state_, plan, attempt);
     std::vector<Moment> passed = evaluated(attempt.passed, attempt);
     arrive(attempt.state);
-    for (Moment& moment : passed) tell_crossings(state_, moment.state.time, moment.evaluation);
+    for (Moment& moment : passed) report_crossings(state_, moment.state.time, moment.evaluation);
     passed_ = std::move(passed);
     return Reaction::accept;
   } catch (const ConvergenceError& error) {
@@ -278,7 +283,7 @@ StepAttempt Evolution::step(const EventTimes& events) {
     if (reaction == Reaction::accept) break;
     ++attempt.rejected;
     // The extrapolation may be the reason for repeated failures.
-    if (attempt.rejected == thresholds::most_tries_from_past) state_ = without_past(std::move(state_));
+    if (attempt.rejected == most_tries_from_past) state_ = without_past(std::move(state_));
     if (reaction == Reaction::repeat_smaller) plan = plan_towards(events, smaller_size(attempt));
   }
   const Evaluation& arrival = before_jump_ ? *before_jump_ : evaluation_;
@@ -287,8 +292,8 @@ StepAttempt Evolution::step(const EventTimes& events) {
   attempt.iterations_electric += arrival.iterations_electric;
   attempt.at_snapshot = (plan.reaches_event && plan.is_snapshot) ||
                         (adapts() && events.snapshots.is_due(state_.time, from, events.end_time));
-  // Nothing is idle where the forcing has just changed.
-  if (!before_jump_) coarsen_if_idle();
+  // Where the forcing has just changed the spectrum has not followed yet.
+  if (!before_jump_) coarsen();
   return attempt;
 }
 

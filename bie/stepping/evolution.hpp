@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "bie/stepping/evaluation/growth.hpp"
 #include "bie/stepping/evaluation/initial_state.hpp"
 #include "bie/stepping/evaluation/smallest_gap.hpp"
+#include "bie/stepping/evaluation/wrinkling.hpp"
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/stepping/time/step_control.hpp"
-#include "bie/stepping/time/step_plan.hpp"
 
 namespace vehd {
 
@@ -130,11 +129,11 @@ class Evolution {
   void raise_order(std::size_t vesicle, const Resolution& reached, int enough);
   [[nodiscard]] std::vector<Moment> evaluated(const std::vector<State>& passed, StepAttempt& attempt);
   bool raise_orders_for(const StepAttempt& attempt, std::vector<bool>& raised);
-  void lower_order_if_idle(std::size_t vesicle);
-  void lower_quadrature_if_idle(std::size_t vesicle);
+  void coarsen_order(std::size_t vesicle);
+  void coarsen_quadrature(std::size_t vesicle);
   using Coarsening = void (Evolution::*)(std::size_t vesicle);
   void try_to_coarsen(Coarsening coarsening, std::size_t vesicle);
-  void coarsen_if_idle();
+  void coarsen();
 
   EvolutionSetup setup_;
   Instruments& instruments_;

@@ -4,11 +4,11 @@
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/first_step.hpp"
-#include "bie/stepping/state/exchange.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
+#include "bie/stepping/state/symmetry.hpp"
 #include "bie/stepping/thresholds.hpp"
-#include "bie/stepping/time/rate.hpp"
+#include "bie/stepping/time/step_control.hpp"
+#include "bie/stepping/time/step_operations.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -100,7 +100,9 @@ void Evolution::evaluate_start() {
   while (raise_orders_for_growth()) {
   }
   start_.clear();
-  if (state_.dt_next == 0.0) state_.dt_next = first_step(setup_, evaluation_, state_);
+  if (state_.dt_next == 0.0) {
+    state_.dt_next = first_step(setup_.control, setup_.settings.time_order, setup_.model, state_, evaluation_);
+  }
 }
 
 }  // namespace vehd

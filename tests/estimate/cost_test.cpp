@@ -8,7 +8,7 @@
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/shipped_scenes.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scenes.hpp"

@@ -5,7 +5,7 @@
 
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/space/resolution.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/thread_count.hpp"

@@ -5,7 +5,7 @@
 
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/stepping/evolution.hpp"
-#include "bie/stepping/space/membrane_at.hpp"
+#include "bie/stepping/space/discretisation.hpp"
 #include "tests/stepping/by_place.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"

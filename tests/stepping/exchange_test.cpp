@@ -1,5 +1,3 @@
-#include "bie/stepping/state/exchange.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <map>
@@ -7,6 +5,7 @@
 #include "bie/physics/effects/gravity.hpp"
 #include "bie/physics/effects/spontaneous_curvature.hpp"
 #include "bie/stepping/evolution.hpp"
+#include "bie/stepping/state/symmetry.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "bie/physics/effects/poration.hpp"
-#include "bie/stepping/space/membrane_at.hpp"
+#include "bie/stepping/space/discretisation.hpp"
 #include "tests/stepping/by_place.hpp"
 #include "tests/stepping/relaxing_sphere.hpp"
 #include "tests/support/several_runs.hpp"

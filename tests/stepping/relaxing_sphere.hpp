@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "bie/physics/effects/membrane_material.hpp"
 #include "bie/physics/effects/poration.hpp"
+#include "bie/physics/membrane.hpp"
 #include "bie/physics/parameters.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/transform.hpp"

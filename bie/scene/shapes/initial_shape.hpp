@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bie/files/run_reader.hpp"
-#include "bie/physics/effects/membrane_material.hpp"
+#include "bie/physics/membrane.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/support/types.hpp"
 

@@ -5,21 +5,62 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <tuple>
+#include <utility>
 
 #include "bie/physics/effects/bending.hpp"
 #include "bie/sphere/axis_crossing.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/maximum.hpp"
 #include "bie/sphere/principal_axes.hpp"
-#include "bie/stepping/evaluation/field_poles.hpp"
 #include "bie/stepping/evaluation/operator_checks.hpp"
 #include "bie/stepping/evaluation/poration_load.hpp"
 #include "bie/stepping/evaluation/volume_moments.hpp"
 #include "bie/stepping/evaluation/wrinkling.hpp"
-#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
+
+namespace {
+
+/// Errors of the layers up to this many times what truncation does to them are hidden by it.
+constexpr double above_truncation = 3.0;
+
+}  // namespace
+
+double value_at(const SpherePoint& point, const Vector& field) {
+  return evaluate_harmonics(field, Vector{{point.theta}}, Vector{{point.phi}})(0, 0);
+}
+
+namespace {
+
+SphereDerivatives rotated(const Matrix3& rotation, const SphereDerivatives& x) {
+  const Matrix3 t = rotation.transpose();
+  return {x.value * t, x.d1 * t, x.d2 * t, x.d11 * t, x.d12 * t, x.d22 * t};
+}
+
+}  // namespace
+
+std::array<double, 2> values_at_poles(const Vector3& direction, const SphereTransform& fine, const Vector3& point,
+                                      const Matrix& position, const Vector& field) {
+  const bool axisymmetric = fine.azimuthal_order() < fine.order();
+  if (axisymmetric) {
+    const SpherePoint up = higher_pole(position);
+    const double above = value_at(up, field), below = value_at({std::numbers::pi - up.theta, 0.0}, field);
+    return direction.z() > 0.0 ? std::array{above, below} : std::array{below, above};
+  }
+  Matrix centred = position;
+  centred.row(0).setZero();
+  const SphereDerivatives x = fine.synthesize_hessian(centred);
+  std::array<double, 2> values{};
+  for (const std::size_t side : {0U, 1U}) {
+    const Vector3 up = side == 0 ? direction : Vector3(-direction);
+    // Of any turn about the line that brings it upwards.
+    const Matrix3 rotation = Eigen::Quaterniond::FromTwoVectors(up, Vector3::UnitZ()).toRotationMatrix();
+    const auto pole =
+        highest_on_line(rotation * point, fine.grid(), rotated(rotation, x), centred * rotation.transpose());
+    values[side] = pole ? value_at(*pole, field) : std::numeric_limits<double>::quiet_NaN();
+  }
+  return values;
+}
 
 namespace {
 
@@ -53,8 +94,6 @@ double elastic_energy_scaled(const Membrane& membrane, double c) {
   }
   return (s.mean_curvature.array() - c).square().matrix().dot(s.quadrature);
 }
-
-std::tuple<double, double, double> components(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// √(energy of x in degrees above 2p/3 over energy in degrees from 1 up).
 double spectrum_tail(const Matrix& position) {
@@ -101,8 +140,8 @@ VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame
 namespace {
 
 /// Where the membrane is, how it moves and how it is stretched.
-void add_moments(const DiagnosedModel& model, const SphereTransform& fine, const Surface& s,
-                 const VesicleFields& fields, VesicleDiagnostics& d) {
+void add_moments(const Vector3& field, const SphereTransform& fine, const Surface& s, const VesicleFields& fields,
+                 VesicleDiagnostics& d) {
   const VolumeMoments moments = volume_moments(s);
   std::tie(d.centroid_x, d.centroid_y, d.centroid_z) = components(moments.centroid);
   if (fields.velocity.size() > 0) {
@@ -114,17 +153,17 @@ void add_moments(const DiagnosedModel& model, const SphereTransform& fine, const
                    std::sqrt(d.area / (4.0 * std::numbers::pi));
   }
   d.aspect_ratio = moments.aspect_ratio();
-  if (model.field.isZero(0.0)) return;
-  d.aspect_ratio_field = moments.aspect_ratio_along(model.field);
-  d.shape_modes = shape_modes(s, moments.centroid, model.field);
+  if (field.isZero(0.0)) return;
+  d.aspect_ratio_field = moments.aspect_ratio_along(field);
+  d.shape_modes = shape_modes(s, moments.centroid, field);
 }
 
 /// V_m of an averaged field, by its magnitude.
-void add_amplitudes(const DiagnosedModel& model, const SphereTransform& fine, const Surface& s,
-                    const VesicleState& vesicle, const Matrix& amplitude, VesicleDiagnostics& d) {
+void add_amplitudes(const Vector3& field, const SphereTransform& fine, const Surface& s, const VesicleState& vesicle,
+                    const Matrix& amplitude, VesicleDiagnostics& d) {
   const Vector3 mean = vesicle.position.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
   const auto at_poles = [&](Index part) {
-    return values_at_poles(model.field, fine, centroid(s) - mean, vesicle.position, amplitude.col(part));
+    return values_at_poles(field, fine, centroid(s) - mean, vesicle.position, amplitude.col(part));
   };
   const auto [plus_real, minus_real] = at_poles(0);
   const auto [plus_imaginary, minus_imaginary] = at_poles(1);
@@ -137,9 +176,8 @@ void add_amplitudes(const DiagnosedModel& model, const SphereTransform& fine, co
 }
 
 /// How near it is to poration, or how far it has come.
-void add_poration(const DiagnosedModel& model, const SphereTransform& fine, const Surface& s,
-                  const VesicleState& vesicle, const VesicleSolution& solution, const VesicleFields& fields,
-                  VesicleDiagnostics& d) {
+void add_poration(const VesicleModel& model, const SphereTransform& fine, const Surface& s, const VesicleState& vesicle,
+                  const VesicleSolution& solution, const VesicleFields& fields, VesicleDiagnostics& d) {
   if (model.criterion) {
     d.load = poration_load(*model.criterion, model.charging.capacitance, fine, vesicle, solution, fields);
     d.poration_load = d.load.load;
@@ -172,12 +210,12 @@ Vector3 net_force(const Membrane& membrane, const VesicleSolution& solution, con
   return sum;
 }
 
-void add_by_place(const DiagnosedModel& model, const Membrane& membrane, const VesicleSolution& solution,
+void add_by_place(const VesicleModel& model, const Membrane& membrane, const VesicleSolution& solution,
                   const VesicleFields& fields, VesicleDiagnostics& d) {
-  if (!model.by_place) return;
-  if (model.flow.bending) {
+  if (!model.by_place && !model.pump) return;
+  if (model.bending) {
     d.elastic_energy =
-        bends_by_place(membrane) ? elastic_energy(membrane) : model.flow.bending->modulus * d.elastic_energy_scaled;
+        bends_by_place(membrane) ? elastic_energy(membrane) : model.bending->modulus * d.elastic_energy_scaled;
   }
   std::tie(d.net_force_x, d.net_force_y, d.net_force_z) = components(net_force(membrane, solution, fields));
 }
@@ -187,29 +225,19 @@ void check_operators(const MembraneSpace& space, double tolerance, const Vesicle
   // Truncation hides what is this close above it.
   const LayerCheck check = check_layers(membrane);
   d.quadrature_error = check.error;
-  d.quadrature_is_coarse = check.error > tolerance && check.error > thresholds::above_truncation * check.truncation;
+  d.quadrature_is_coarse = check.error > tolerance && check.error > above_truncation * check.truncation;
   d.separation = separation(space.transform(), vesicle.position, space.subspace().symmetry().axisymmetric);
 }
 
 }  // namespace
 
-DiagnosedModel diagnosed_model(const Model& model, const VesicleModel& vesicle) {
-  DiagnosedModel result{flow_parameters(model, vesicle)};
-  for (const auto& effect : vesicle.effects) {
-    result.spontaneous_curvature += effect->spontaneous_curvature();
-  }
-  if (model.electric) result.field = model.electric->field;
-  result.criterion = vesicle.criterion;
-  result.reaction = vesicle.reaction;
-  result.charging = vesicle.charging;
-  result.wall = model.wall;
-  result.by_place = vesicle.by_place || vesicle.pump.has_value();
-  return result;
-}
-
-VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& space, double quadrature_tolerance,
-                            const VesicleState& vesicle, const VesicleSolution& solution, const VesicleFields& fields,
-                            const VesicleDiagnostics* previous) {
+VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_model, const MembraneSpace& space,
+                            double quadrature_tolerance, const VesicleState& vesicle, const VesicleSolution& solution,
+                            const VesicleFields& fields, const VesicleDiagnostics* previous) {
+  const FlowParameters flow = flow_parameters(model, vesicle_model);
+  const Vector3 field = model.electric ? model.electric->field : Vector3(Vector3::Zero());
+  double spontaneous_curvature = 0.0;
+  for (const auto& effect : vesicle_model.effects) spontaneous_curvature += effect->spontaneous_curvature();
   const Membrane& membrane = *solution.membrane;
   const Surface& s = membrane.surface;
   const SphereTransform& fine = membrane.fine;
@@ -218,39 +246,39 @@ VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& sp
   d.volume = enclosed_volume(s);
   d.reduced_volume = 6.0 * std::sqrt(std::numbers::pi) * d.volume / (d.area * std::sqrt(d.area));
   d.bending_energy_scaled = bending_energy_scaled(s);
-  d.elastic_energy_scaled = elastic_energy_scaled(membrane, model.spontaneous_curvature);
+  d.elastic_energy_scaled = elastic_energy_scaled(membrane, spontaneous_curvature);
   // The area of a membrane with undulations is not held but follows the tension.
-  d.area_drift = model.flow.undulations ? 0.0 : d.area / vesicle.reference_area - 1.0;
+  d.area_drift = vesicle_model.undulations ? 0.0 : d.area / vesicle.reference_area - 1.0;
   d.volume_drift = d.volume / vesicle.reference_volume - 1.0;
   d.strain_max = fine.synthesize(vesicle.area_strain).cwiseAbs().maxCoeff();
   d.spectrum_tail = spectrum_tail(vesicle.position);
-  add_moments(model, fine, s, fields, d);
+  add_moments(field, fine, s, fields, d);
   if (fields.tension.size() > 0) {
     const Vector tension = fine.synthesize(fields.tension);
     d.tension_integral = tension.dot(s.quadrature);
     d.tension_max = maximum(fine.grid(), fine.synthesize_hessian(fields.tension), 0, fields.tension, 1.0);
     // The tension of a sphere is known up to its mean.
     if (!solution.is_sphere) {
-      d.wrinkle_degree = wrinkle_degree(model.flow, tension.minCoeff(), membrane.radius);
-      d.wrinkling_rate = wrinkling_rate(model.flow, d.tension_integral / d.area, membrane.radius, fine.order());
+      d.wrinkle_degree = wrinkle_degree(flow, tension.minCoeff(), membrane.radius);
+      d.wrinkling_rate = wrinkling_rate(flow, d.tension_integral / d.area, membrane.radius, fine.order());
     }
   }
   if (fields.potential_amplitude.size() > 0) {
-    add_amplitudes(model, fine, s, vesicle, fields.potential_amplitude, d);
+    add_amplitudes(field, fine, s, vesicle, fields.potential_amplitude, d);
   }
   const Vector& potential = transmembrane_potential(vesicle, fields);
   if (potential.size() > 0) {
     const SphereDerivatives v = fine.synthesize_hessian(potential);
-    if (!model.field.isZero(0.0)) {
+    if (!field.isZero(0.0)) {
       const Vector3 mean = vesicle.position.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
-      const auto [plus, minus] = values_at_poles(model.field, fine, centroid(s) - mean, vesicle.position, potential);
+      const auto [plus, minus] = values_at_poles(field, fine, centroid(s) - mean, vesicle.position, potential);
       d.Vm_pole_plus = plus;
       d.Vm_pole_minus = minus;
     }
     d.Vm_max = std::max(maximum(fine.grid(), v, 0, potential, 1.0), maximum(fine.grid(), v, 0, potential, -1.0));
   }
-  add_poration(model, fine, s, vesicle, solution, fields, d);
-  add_by_place(model, membrane, solution, fields, d);
+  add_poration(vesicle_model, fine, s, vesicle, solution, fields, d);
+  add_by_place(vesicle_model, membrane, solution, fields, d);
   if (model.wall) {
     d.gap_wall = nearest_to_wall(*model.wall, vesicle.position).distance;
     d.force_wall = -model.wall->normal.dot(net_force(membrane, solution, fields));

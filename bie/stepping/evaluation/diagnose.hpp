@@ -1,34 +1,25 @@
 #pragma once
 
+#include <array>
+#include <tuple>
+
+#include "bie/sphere/neighbourhood.hpp"
+#include "bie/sphere/transform.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/state/frame.hpp"
 
 namespace vehd {
 
-/// What the model says of one membrane and its surroundings, in the frame of the state.
-struct DiagnosedModel {
-  FlowParameters flow{};
-  double spontaneous_curvature = 0.0;  ///< c
-  Vector3 field = Vector3::Zero();     ///< E_∞ where the waveform is 1
-  std::optional<PorationCriterion> criterion{};
-  std::shared_ptr<const PorationReaction> reaction{};
-  ChargingParameters charging{};
-  std::optional<Wall> wall{};
-  bool by_place = false;  ///< some properties differ from place to place, or there is a pump
-};
-
-/// That of a vesicle of a model.
-DiagnosedModel diagnosed_model(const Model& model, const VesicleModel& vesicle);
-
 /// History quantities of one membrane, with its own axes for those of the laboratory. Extrema are those of the surface
 /// between the nodes to third order in the spacing.
+/// @param model                 in the frame of the state
 /// @param quadrature_tolerance  of LayerCheck::error
 /// @param previous              where shape and operators are those of a former moment: what it found of them
 /// Accuracy: spectral; extents of ellipsoids to 1e-13, inclinations to 1e-8 degrees, V_m at the north pole to 1e-12
 /// (tests/stepping/evaluation/diagnostics_test.cpp)
-VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& space, double quadrature_tolerance,
-                            const VesicleState& vesicle, const VesicleSolution& solution, const VesicleFields& fields,
-                            const VesicleDiagnostics* previous = nullptr);
+VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_model, const MembraneSpace& space,
+                            double quadrature_tolerance, const VesicleState& vesicle, const VesicleSolution& solution,
+                            const VesicleFields& fields, const VesicleDiagnostics* previous = nullptr);
 
 /// The same quantities where the state is that of a frame: extents, inclination and the values at the north pole are
 /// found anew along the axes of the laboratory.
@@ -36,5 +27,31 @@ VesicleDiagnostics diagnose(const DiagnosedModel& model, const MembraneSpace& sp
 /// @param s     the surface on its grid
 VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame, const SphereTransform& fine,
                                         const Surface& s, const SurfaceFields& membrane, const VesicleFields& fields);
+
+/// Particle stress, dipole moment and power of one vesicle about its own centroid, in the axes of the state. Where
+/// shapes are frozen nothing flows and there is no stress.
+/// @param solution  with its membrane
+/// @param time      and limit: where waveforms have the values that the fields were solved with
+/// Accuracy: spectral; stress of an inextensible sphere in linear flows and dipole of a sphere in a field to 1e-11
+/// (tests/stepping/evaluation/rheology_test.cpp)
+/// Source: Batchelor 1970; two viscosities: Pozrikidis 1992
+Rheology find_rheology(const Model& model, const VesicleModel& vesicle, double time, Limit limit,
+                       const VesicleState& state, const VesicleSolution& solution, const VesicleFields& fields);
+
+/// A field at a point of the parameter sphere. @param field  coefficients
+double value_at(const SpherePoint& point, const Vector& field);
+
+/// To assign the components of a vector to three columns by std::tie.
+inline std::tuple<double, double, double> components(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Values of a field where the line through a point along ±direction leaves the surface for good, along + first: what
+/// highest_on_line finds there; not a number where the line misses it.
+/// @param direction  not zero; along z where the transform knows axisymmetric fields alone
+/// @param fine       whose grid has as many longitudes as the degree asks for
+/// @param point      relative to the mean of the position
+/// @param position, field  coefficients
+/// Accuracy: rounding; of V = z on turned ellipsoids to 1e-12 (tests/stepping/evaluation/diagnostics_test.cpp)
+std::array<double, 2> values_at_poles(const Vector3& direction, const SphereTransform& fine, const Vector3& point,
+                                      const Matrix& position, const Vector& field);
 
 }  // namespace vehd

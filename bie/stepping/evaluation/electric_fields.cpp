@@ -1,10 +1,9 @@
-#include "bie/stepping/evaluation/electric_fields.hpp"
-
 #include <utility>
 
 #include "bie/physics/averaged_field.hpp"
 #include "bie/physics/charge_density.hpp"
 #include "bie/physics/membrane_charging.hpp"
+#include "bie/stepping/evaluation/vesicle_task.hpp"
 #include "bie/stepping/state/composition.hpp"
 #include "bie/support/parallel.hpp"
 
@@ -34,13 +33,10 @@ void take_charges(const VesicleTask& task) {
   task.fields.free_charge_out = capacitance * (task.state.free_charge - inner);
 }
 
-/// dV_m/dt = −(σ_i ∂φ_i/∂n + I)/C_m with the current I through the membrane, Eq. (4e), coefficients. No net current
-/// leaves a closed membrane, which the quadrature sees only up to its error.
+/// dV_m/dt = −(σ_i ∂φ_i/∂n + I)/C_m with the current I through the membrane, Eq. (4e), coefficients.
 Vector charging_rate(const VesicleTask& task, const ChargingMembrane& of, const ElectricTraces& traces) {
   const Membrane& membrane = task.membrane;
-  const Vector& area = membrane.surface.quadrature;
-  Vector current = of.in_field.electric.conductivity_in * traces.flux_in;
-  current.array() -= current.dot(area) / area.sum();
+  Vector current = without_net_current(membrane, of.in_field.electric.conductivity_in * traces.flux_in);
   current += current_through(membrane, membrane_current(of, task.state.poration), task.state.transmembrane_potential);
   return -membrane.fine.analyze(Vector(current.cwiseQuotient(capacitance_of(of.charging, membrane))));
 }

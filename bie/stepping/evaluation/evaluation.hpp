@@ -21,7 +21,7 @@ struct VesicleSolution {
   Unknowns rate;           ///< dy/dt of material points, coefficients; a sphere moves as a rigid one
   /// Of all explicit effects on the fluid, values on the upsampled grid; empty without, and on other ranks.
   Matrix force_of_effects;
-  RecycledSubspaces recycled;  ///< those of the state with what the tension solve has learned
+  RecycledSubspaces recycled;  ///< those of the state with what the tension solve adds
 };
 
 /// A state with everything that its shapes determine: surfaces, operators, electric solution, forces, velocities.

@@ -8,8 +8,7 @@
 #include "bie/physics/charge_density.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/space/membrane_at.hpp"
-#include "bie/stepping/state/exchange.hpp"
+#include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/support/errors.hpp"
 

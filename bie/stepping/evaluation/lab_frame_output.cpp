@@ -16,25 +16,17 @@ LabFrameOutput::LabFrameOutput(const Frame& frame, const NumericalSettings& sett
 
 namespace {
 
-/// Centroid, its velocity, the place of a crossing and what the suspension feels have the components of the frame.
+/// Centroid, its velocity, the net force, the place of a crossing and the rheology have the components of the frame.
 void place(const Frame& frame, VesicleDiagnostics& d) {
-  const Vector3 centroid = frame.origin + frame.axes * Vector3(d.centroid_x, d.centroid_y, d.centroid_z);
-  const Vector3 velocity = frame.axes * Vector3(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z);
-  d.centroid_x = centroid.x();
-  d.centroid_y = centroid.y();
-  d.centroid_z = centroid.z();
-  d.centroid_velocity_x = velocity.x();
-  d.centroid_velocity_y = velocity.y();
-  d.centroid_velocity_z = velocity.z();
+  const auto turned = [&](double x, double y, double z) -> Vector3 { return frame.axes * Vector3(x, y, z); };
+  const auto point = [&](double x, double y, double z) -> Vector3 { return frame.origin + turned(x, y, z); };
+  std::tie(d.centroid_x, d.centroid_y, d.centroid_z) = components(point(d.centroid_x, d.centroid_y, d.centroid_z));
+  std::tie(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z) =
+      components(turned(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z));
+  std::tie(d.poration_x, d.poration_y, d.poration_z) = components(point(d.poration_x, d.poration_y, d.poration_z));
+  std::tie(d.net_force_x, d.net_force_y, d.net_force_z) =
+      components(turned(d.net_force_x, d.net_force_y, d.net_force_z));
   d.rheology = rotated(frame.axes, frame.origin, d.rheology);
-  const Vector3 crossing = frame.origin + frame.axes * Vector3(d.poration_x, d.poration_y, d.poration_z);
-  d.poration_x = crossing.x();
-  d.poration_y = crossing.y();
-  d.poration_z = crossing.z();
-  const Vector3 force = frame.axes * Vector3(d.net_force_x, d.net_force_y, d.net_force_z);
-  d.net_force_x = force.x();
-  d.net_force_y = force.y();
-  d.net_force_z = force.z();
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
-#include "bie/stepping/evaluation/membrane_velocities.hpp"
-
 #include <utility>
 
 #include "bie/physics/effects/bending.hpp"
+#include "bie/stepping/evaluation/vesicle_task.hpp"
 #include "bie/stepping/solve/rigid_sphere.hpp"
 #include "bie/stepping/solve/tension_solve.hpp"
 #include "bie/stepping/state/composition.hpp"

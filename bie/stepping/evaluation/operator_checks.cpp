@@ -15,6 +15,9 @@ namespace vehd {
 
 namespace {
 
+/// Distance of two parts of a membrane, in grid spacings, at which D has lost all but two digits on the finest level.
+constexpr double contact_separation = 0.1;
+
 double largest_length(const Matrix& vectors) { return vectors.rowwise().norm().maxCoeff(); }
 
 /// Points from which the membrane looks for itself: the nodes and behind them the poles.
@@ -128,7 +131,7 @@ double separation(const SphereTransform& nodes, const Matrix& position, bool one
 }
 
 void require_apart(double separation, double before) {
-  if (separation < thresholds::contact) {
+  if (separation < contact_separation) {
     throw ConvergenceError(fmt::format(
         "two parts of the membrane are {:.2g} grid spacings from each other, too near for any quadrature", separation));
   }

@@ -6,14 +6,11 @@
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/maximum.hpp"
+#include "bie/stepping/evaluation/diagnose.hpp"
 
 namespace vehd {
 
 namespace {
-
-double field_at(const SpherePoint& point, const Vector& field) {
-  return evaluate_harmonics(field, Vector{{point.theta}}, Vector{{point.phi}})(0, 0);
-}
 
 /// A load with the point of the parameter sphere where it is.
 struct LoadAt {
@@ -31,7 +28,7 @@ LoadAt of_potential(double threshold, const SphereTransform& fine, const Vector&
   const bool is_below = below.value > kEqual * above.value;
   const Top& top = is_below ? below : above;
   LoadAt result{top.value / threshold, std::numeric_limits<double>::quiet_NaN(), top.point};
-  if (rate.size() > 0) result.rate = (is_below ? -1.0 : 1.0) * field_at(top.point, rate) / threshold;
+  if (rate.size() > 0) result.rate = (is_below ? -1.0 : 1.0) * value_at(top.point, rate) / threshold;
   return result;
 }
 
@@ -112,15 +109,13 @@ void note_first_crossings(const Evaluation* before, double time_before, const Ev
   }
 }
 
-void tell_crossings(const State& state, double time, Evaluation& evaluation) {
+void report_crossings(const State& state, double time, Evaluation& evaluation) {
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     const std::optional<FirstCrossing>& crossing = state.vesicles[a].crossing;
     if (!crossing || crossing->time > time) continue;
     VesicleDiagnostics& d = evaluation.diagnostics.vesicles[a];
     d.poration_time = crossing->time;
-    d.poration_x = crossing->place.x();
-    d.poration_y = crossing->place.y();
-    d.poration_z = crossing->place.z();
+    std::tie(d.poration_x, d.poration_y, d.poration_z) = components(crossing->place);
   }
 }
 

@@ -29,7 +29,7 @@ PorationLoad poration_load(const PorationCriterion& criterion, double capacitanc
 void note_first_crossings(const Evaluation* before, double time_before, const Evaluation& arrival,
                           const Evaluation& after, State& state);
 
-/// Tells of the crossings of a state up to a time in the diagnostics of that time.
-void tell_crossings(const State& state, double time, Evaluation& evaluation);
+/// Writes the crossings of a state up to a time into the diagnostics of that time.
+void report_crossings(const State& state, double time, Evaluation& evaluation);
 
 }  // namespace vehd

@@ -18,4 +18,27 @@ struct VesicleTask {
   VesicleSolution& solution;
 };
 
+/// The electric fields of all vesicles of this rank and the rates of V_m or of the charges: from V_m, Eq. (12); with
+/// displacement currents from the charges of the faces; in an averaged field the amplitudes of V_m and q. All are zero
+/// where there is no charge and no field, see SolvedFields::electric_inactive.
+/// @param limit   which value of the field counts where it jumps
+/// @param solved  with the interaction; the iterations are added there
+/// @return  f_E of each, values on the upsampled grid; empty where it is zero and for vesicles of other ranks
+/// @throws ConvergenceError naming the solve that failed
+/// Source: paper Eqs. (4e), (12), (15), (32); docs/theory/electric.md
+std::vector<Matrix> solve_electric(const std::vector<VesicleTask>& tasks, double time, Limit limit,
+                                   SolvedFields& solved);
+
+/// The conductance of a membrane that porates, and how fast its state s changes; V_m must be known.
+void solve_poration(const VesicleTask& task, double time, Limit limit);
+
+/// The forces on all membranes of this rank and their velocities, with the tensions that keep them inextensible,
+/// Eqs. (2), (5), (27b).
+/// @param forces_electric  f_E of each, values on the upsampled grid; empty where it is zero
+/// @param limit            which value counts where a waveform jumps
+/// @param solved           with the interaction; the iterations are added there
+/// @throws ConvergenceError if the tensions do not converge
+void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<Matrix>& forces_electric, double time,
+                      Limit limit, Instruments& instruments, SolvedFields& solved);
+
 }  // namespace vehd

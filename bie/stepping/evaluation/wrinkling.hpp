@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bie/physics/parameters.hpp"
+#include "bie/stepping/evaluation/evaluation.hpp"
 
 namespace vehd {
 
@@ -11,8 +12,8 @@ namespace vehd {
 /// Accuracy: exact for the formula (tests/stepping/evaluation/wrinkling_test.cpp); an estimate for curved membranes
 double wrinkle_degree(const FlowParameters& parameters, double least_tension, double radius);
 
-/// Rate at which a disturbance of degree n ≥ 2 of a nearly spherical membrane under a uniform tension grows, negative
-/// where it decays:
+/// Rate at which the fastest of the disturbances of degrees 2 to the highest of a nearly spherical membrane grows under
+/// a uniform tension; 0 where all of them decay. That of degree n is
 ///
 ///   σ_n = −κ_c (n−1) n (n+1) (n+2) [n(n+1) + λR²/κ_c] / (μ_e R³ [(2n³+3n²−5) μ_i/μ_e + 2n³+3n²+4]),  κ_c = κ_B/2.
 ///
@@ -21,9 +22,14 @@ double wrinkle_degree(const FlowParameters& parameters, double least_tension, do
 /// [1/time]
 /// Accuracy: exact for the formula (tests/stepping/evaluation/wrinkling_test.cpp)
 /// Source: friction as in the quasi-spherical theory of Vlahovska and Gracia (docs/references.md)
-double disturbance_rate(const FlowParameters& parameters, double tension, double radius, int degree);
-
-/// That of the fastest of the degrees from 2 to the highest; 0 where all of them decay. [1/time]
 double wrinkling_rate(const FlowParameters& parameters, double tension, double radius, int highest_degree);
+
+/// By what a small error of a shape is expected to grow until the shape is another one: exp(σ R/v), with σ the
+/// wrinkling_rate of the mean tension and v the largest speed of a membrane along its normal; of the vesicle where it
+/// is largest.
+/// @param solved  of the state
+/// @return        1 where nothing is compressed, at most thresholds::most_growth
+/// Accuracy: an estimate
+double growth_of_wrinkles(const Model& model, const State& state, const SolvedFields& solved);
 
 }  // namespace vehd

@@ -20,8 +20,29 @@ namespace vehd {
 
 namespace {
 
+/// A pass that converges reduces its residual by the square or by its own tolerance: ten are a tenth of a digit each.
+constexpr int most_passes = 24;
+/// Relative tolerance of a pass. Every pass starts from the full residual, so it needs no more digits than its
+/// linearisation is worth (a step changes the shape by about a hundredth), nor more than are left to gain. Measured.
+constexpr double finest_pass = 1e-2;
+constexpr double loosest_pass = 0.3;
+/// A pass that leaves more than this of its residual does not gain.
+constexpr double stagnation_ratio = 0.9;
+/// So many may happen in a step that arrives all the same. After each further one passes are solved with this share of
+/// their tolerance, and not below the sharpest: the norm of the solve counts Eq. (28) at degree 64 a few thousandths of
+/// what it does at degree 1.
+constexpr int stagnating_passes = 4;
+constexpr double sharper_pass = 0.1;
+constexpr double sharpest_pass = 1e-5;
+/// Changes of H smaller than this, relative to H, are those of a shape at rest: Eq. (28) to five digits of them is
+/// below what the constraint lets pass.
+constexpr double curvature_floor = 1e-6;
+/// Largest relative change of an area element that a motion may make before it is corrected: beyond a half the
+/// linearised constraint can turn an element over.
+constexpr double largest_stretch = 0.5;
+
 double pass_tolerance(double largest_excess) {
-  return std::clamp(thresholds::loosest_pass / largest_excess, thresholds::finest_pass, thresholds::loosest_pass);
+  return std::clamp(loosest_pass / largest_excess, finest_pass, loosest_pass);
 }
 
 /// Share of the strain of former steps that this step takes back.
@@ -122,14 +143,13 @@ class Iteration {
         bending() ? fine().synthesize_derivatives(velocity_) : fine().synthesize_first_derivatives(velocity_);
     if (bending()) {
       rhs_.shape = dt_ * curvature_increment(membrane, curvature_transform_, u) - curvature_;
-      if (pass_ == 0) curvature_scale_ = std::max(rhs_.shape.norm(), thresholds::curvature_floor * mean_curvature_);
+      if (pass_ == 0) curvature_scale_ = std::max(rhs_.shape.norm(), curvature_floor * mean_curvature_);
       errors_.curvature = rhs_.shape.norm() / curvature_scale_;
     }
     motion_.material.position = start_.fields.position + dt_ * velocity_;
     after_ = measure(fine(), motion_.material.position);
     Eigen::ArrayXd stretch = after_.area_element.cwiseQuotient(membrane.surface.area_element);
-    is_torn_ = !(stretch.minCoeff() > 1.0 - thresholds::largest_stretch &&
-                 stretch.maxCoeff() < 1.0 + thresholds::largest_stretch);
+    is_torn_ = !(stretch.minCoeff() > 1.0 - largest_stretch && stretch.maxCoeff() < 1.0 + largest_stretch);
     if (is_torn_) {
       if (!bending() || errors_.curvature <= context_.settings.curvature_tolerance) {
         throw ConvergenceError(fmt::format("area elements change by factors {:.2g} to {:.2g} in one step",
@@ -183,22 +203,21 @@ class Iteration {
     }
     // The norm of the solve weighs curvature and strain together, those of high degrees least. With a loose
     // tolerance the residual of one can hide behind the rounding of the other, that of the area elements.
-    if (excess() > thresholds::stagnation_ratio * excess_before_) ++stagnating_;
+    if (excess() > stagnation_ratio * excess_before_) ++stagnating_;
     excess_before_ = excess();
-    const double sharpening =
-        std::pow(thresholds::sharper_pass, std::max(0, stagnating_ - thresholds::stagnating_passes));
-    const double tolerance = std::max(sharpening * pass_tolerance(excess()), thresholds::sharpest_pass);
+    const double sharpening = std::pow(sharper_pass, std::max(0, stagnating_ - stagnating_passes));
+    const double tolerance = std::max(sharpening * pass_tolerance(excess()), sharpest_pass);
     const FlowSystem::Solution increment = flow.solve({flow.equations().front().rows(rhs_)}, tolerance);
     iterations += increment.report.iterations;
     // What a pass leaves the next one answers for, as long as it gains.
-    if (!increment.report.converged() && !(increment.report.residual < thresholds::stagnation_ratio)) {
+    if (!increment.report.converged() && !(increment.report.residual < stagnation_ratio)) {
       throw ConvergenceError(fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations",
                                          increment.report.residual, increment.report.iterations));
     }
     const Matrix velocity = push * normal_ + increment.velocities.front();
     add(1.0, velocity, increment.unknowns.front());
     if (free_area_) {
-      const FlowSystem::Solution& uniform = flow.of_uniform_tension(thresholds::sharpest_pass);
+      const FlowSystem::Solution& uniform = flow.of_uniform_tension(sharpest_pass);
       const Matrix& response = uniform.velocities.front();
       const double area = after_.area + arrival_area_ + dt_ * growth(velocity);
       add(free_area_->raise_tension(area, dt_ * growth(response)), response, uniform.unknowns.front());
@@ -278,7 +297,7 @@ Motion constrained_motion(const MotionContext& context, const MotionStart& start
     if (iteration.arrives(arrival)) return iteration.take();
     const std::string left = iteration.text();
     iteration.solve(flow, iterations);
-    if (iteration.pass() > thresholds::most_passes) throw ConvergenceError(left);
+    if (iteration.pass() > most_passes) throw ConvergenceError(left);
   }
 }
 

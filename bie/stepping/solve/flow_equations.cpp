@@ -15,6 +15,14 @@
 
 namespace vehd {
 
+namespace {
+
+/// Strain counts in the norm of the joint system by this share of what the change of curvature does: the tolerance of
+/// the one over that of the other (NumericalSettings). Measured.
+constexpr double strain_share = 0.1;
+
+}  // namespace
+
 bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& membrane) {
   return parameters.inextensible && !parameters.undulations &&
          distance_variation(membrane.surface) < thresholds::sphere_variation * membrane.radius;
@@ -40,8 +48,8 @@ FlowEquations::FlowEquations(const FlowMembrane& one, FlowOptions options) : one
   tension_scale_ = radius;
   if (bends()) {
     shape_scale_ = 1.0 / radius;
-    tension_scale_ = thresholds::strain_share * (one_.parameters.viscosity * radius / options_.dt +
-                                                 one_.parameters.bending->modulus / (radius * radius));
+    tension_scale_ = strain_share * (one_.parameters.viscosity * radius / options_.dt +
+                                     one_.parameters.bending->modulus / (radius * radius));
   }
   if (has_tension() && one_.parameters.undulations) {
     const Vector area_element = membrane().weighted(Vector::Ones(membrane().surface.n_points()));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bie/physics/membrane.hpp"
-#include "bie/stepping/state/surface_fields.hpp"
+#include "bie/stepping/state/fields.hpp"
 
 /// An inextensible sphere is rigid. To first order its points may leave it at constant area elements, which is the
 /// velocity of Eq. (27); but any shape that they form has more area than the sphere of its volume, so a uniform

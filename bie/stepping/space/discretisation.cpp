@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "bie/potentials/pair_layers.hpp"
-#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 
 namespace {
+
+/// Entries of the Stokes layers up to which threads have a state each, nodes of the step or snapshots within it. What
+/// is larger keeps all of them busy with one, and two would not fit the caches. Measured.
+constexpr double most_entries_of_small_operators = 1e6;
 
 /// Degree up to which transforms for layers between vesicles are kept: some 20 MB.
 constexpr int kHighestPrepared = 32;
@@ -84,7 +88,7 @@ bool Discretisation::leaves_threads_idle() const {
     const auto of_velocity = static_cast<double>(space->subspace().vectors().size());
     entries += of_velocity * of_velocity;
   }
-  return shares_.ranks().is_alone() && entries <= thresholds::most_entries_of_small_operators;
+  return shares_.ranks().is_alone() && entries <= most_entries_of_small_operators;
 }
 
 std::shared_ptr<const MembraneSpace> Discretisation::space_of(const ResolutionLevel& level) const {
@@ -92,6 +96,28 @@ std::shared_ptr<const MembraneSpace> Discretisation::space_of(const ResolutionLe
   settings.order = level.order;
   settings.quadrature_oversampling *= level.quadrature_refinement;
   return std::make_shared<const MembraneSpace>(settings, symmetry_);
+}
+
+Membrane membrane_at(const MembraneSpace& space, const Matrix& position, const LayerSelection& selection,
+                     double viscosity_ratio, Instruments& instruments) {
+  const SymmetrySubspace& subspace = space.subspace();
+  Surface surface = make_surface(space.fine_transform(), position);
+  const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
+  LayerOperators layers = assemble_symmetric_operators(space.quadrature(), space.targets(), position, selection,
+                                                       instruments, subspace, space.fold());
+  std::optional<ViscosityContrast> contrast;
+  if (selection.stokes_double) {
+    contrast.emplace(ViscosityContrastParameters{viscosity_ratio}, space.fine_transform(), surface,
+                     layers.stokes_double, subspace);
+    layers.stokes_double = {};
+  }
+  return {space.fine_transform(), std::move(surface), std::move(layers), radius, subspace, std::move(contrast)};
+}
+
+MembraneMaterial material_at(const MembraneSpace& space, const MembraneMaterial& coefficients) {
+  MembraneMaterial values = coefficients;
+  for_each_property(values, [&](Vector& property) { property = Vector(space.fine_transform().synthesize(property)); });
+  return values;
 }
 
 }  // namespace vehd

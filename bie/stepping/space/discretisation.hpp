@@ -3,10 +3,12 @@
 #include <memory>
 #include <vector>
 
+#include "bie/physics/membrane.hpp"
 #include "bie/potentials/rotated_quadrature.hpp"
 #include "bie/potentials/smooth_grid.hpp"
 #include "bie/sphere/symmetry.hpp"
 #include "bie/sphere/transform.hpp"
+#include "bie/support/instruments.hpp"
 #include "bie/support/ranks/shares.hpp"
 
 namespace vehd {
@@ -108,5 +110,14 @@ class Discretisation {
   Shares shares_;
   SharedTransforms pair_transforms_;
 };
+
+/// The membrane at a position with the operators of the selection; it may outlive the space. A viscosity contrast takes
+/// the place of the double layer that it is made of.
+Membrane membrane_at(const MembraneSpace& space, const Matrix& position, const LayerSelection& selection,
+                     double viscosity_ratio, Instruments& instruments);
+
+/// What differs from place to place, as a Membrane has it.
+/// @param coefficients  of the degree of the space
+MembraneMaterial material_at(const MembraneSpace& space, const MembraneMaterial& coefficients);
 
 }  // namespace vehd

@@ -6,9 +6,20 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/neighbourhood.hpp"
 #include "bie/stepping/state/field_table.hpp"
-#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
+
+namespace {
+
+/// Sliding of degree n by an angle a is undone up to n a of this: a wave that slides past by a quarter of its length
+/// (π/2) is no longer followed by one step along great circles.
+constexpr double largest_phase = 1.5;
+/// How sharply degrees fade out there: half at the phase, a thousandth at 2.4 times it.
+constexpr int phase_power = 8;
+/// Sliding below this is rounding.
+constexpr double no_sliding = 1e-13;
+
+}  // namespace
 
 SphereVectors sliding_part(const SphereTransform& fine, const Surface& s, const Matrix& displacement) {
   SphereDerivatives u = fine.synthesize_gradient(displacement);
@@ -120,10 +131,8 @@ Matrix midway_sliding(const SphereTransform& fine, const Directions& nodes, cons
   const Matrix at_nodes = cartesian(fine.grid(), sliding);
   const double length = at_nodes.rowwise().norm().maxCoeff();
   // Without swirl, as in most axisymmetric runs, it is rounding.
-  if (length < thresholds::no_sliding) return Matrix::Zero(at_nodes.rows(), 3);
-  const auto share = [&](int degree) {
-    return 1.0 / (1.0 + std::pow(degree * length / thresholds::largest_phase, thresholds::phase_power));
-  };
+  if (length < no_sliding) return Matrix::Zero(at_nodes.rows(), 3);
+  const auto share = [&](int degree) { return 1.0 / (1.0 + std::pow(degree * length / largest_phase, phase_power)); };
   Matrix series = fine.analyze(at_nodes);
   const Matrix beyond = at_nodes - fine.synthesize(series);
   for (int n = 1; n <= fine.order(); ++n) {

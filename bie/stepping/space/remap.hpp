@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bie/geometry/surface.hpp"
-#include "bie/stepping/state/surface_fields.hpp"
+#include "bie/stepping/state/fields.hpp"
 
 namespace vehd {
 

@@ -6,15 +6,78 @@
 
 #include "bie/physics/averaged_field.hpp"
 #include "bie/sphere/harmonics.hpp"
-#include "bie/stepping/space/degree_bounds.hpp"
-#include "bie/stepping/thresholds.hpp"
 
 namespace vehd {
 
 namespace {
 
+/// Errors of V_m, tension and q are relative to their size, but at least to this share of |E|R, κ_B/R² and η|E|, so
+/// that a small V_m at the start of charging need not be known to all its digits.
+constexpr double least_share_of_scale = 0.1;
+/// Slowest decay of a spectrum from degree to degree that a geometric series continues: slower ones do not decay within
+/// any degree that vehd has (0.97 to the power 64 is a seventh).
+constexpr double slowest_decay = 0.97;
+
+/// Of each degree n what a field can be at most: max |f_n| ≤ |coefficients of degree n| √((2n+1)/4π), by the addition
+/// theorem.
+/// @param coefficients  [n_coefficients x F]; of vectors the norm is bounded
+Vector degree_bounds(const Matrix& coefficients) {
+  const int order = order_of(coefficients.rows());
+  Vector bounds(order + 1);
+  for (int n = 0; n <= order; ++n) {
+    const double norm = coefficients.middleRows(coefficient_index(n, -n), 2 * n + 1).norm();
+    bounds[n] = norm * std::sqrt((2.0 * n + 1.0) / (4.0 * std::numbers::pi));
+  }
+  return bounds;
+}
+
+/// That of the degrees above `middle`.
+Matrix upper_part(Matrix coefficients, int middle) {
+  coefficients.topRows(n_coefficients(middle)).setZero();
+  return coefficients;
+}
+
+double share_of(double largest, const Matrix& upper) {
+  const double most = degree_bounds(upper).sum();
+  return most > 0.0 ? std::min(1.0, largest / most) : 1.0;
+}
+
+}  // namespace
+
+VisibleShare visible_share(const SphereTransform& fine, const SurfaceFields& membrane) {
+  const int middle = order_of(membrane.position.rows()) / 2;
+  const Matrix upper = upper_part(membrane.position, middle);
+  const SphereDerivatives x = fine.synthesize_gradient(membrane.position);
+  const Matrix moved = fine.synthesize(upper);
+  const bool is_charged = membrane.transmembrane_potential.size() > 0;
+  SphereDerivatives v;
+  Matrix upper_v, charged;
+  if (is_charged) {
+    v = fine.synthesize_gradient(membrane.transmembrane_potential);
+    upper_v = upper_part(membrane.transmembrane_potential, middle);
+    charged = fine.synthesize(upper_v);
+  }
+  double across = 0.0, at_place = 0.0;
+  for (Index i = 0; i < moved.rows(); ++i) {
+    const Vector3 d1 = x.d1.row(i), d2 = x.d2.row(i), by = moved.row(i);
+    const Vector3 normal = d1.cross(d2);
+    across = std::max(across, std::abs(normal.dot(by)) / normal.norm());
+    if (!is_charged) continue;
+    // by = c₁ x_1 + c₂ x_2 along the surface.
+    const double c1 = by.cross(d2).dot(normal) / normal.squaredNorm();
+    const double c2 = d1.cross(by).dot(normal) / normal.squaredNorm();
+    at_place = std::max(at_place, std::abs(charged(i, 0) - c1 * v.d1(i, 0) - c2 * v.d2(i, 0)));
+  }
+  VisibleShare share;
+  share.shape = share_of(across, upper);
+  if (is_charged) share.potential = share_of(at_place, upper_v);
+  return share;
+}
+
+namespace {
+
 double least_potential_scale(const AppliedField& electric, double radius) {
-  return thresholds::least_size * electric.field.norm() * radius;
+  return least_share_of_scale * electric.field.norm() * radius;
 }
 
 double scale_of(double least, double largest) {
@@ -33,13 +96,13 @@ double charge_scale(const Model& model, std::size_t vesicle, double largest) {
   const ElectricParameters electric = electric_parameters(model, model.vesicles[vesicle]);
   const double contrast = electric.averaged_frequency ? std::abs(complex_conductivities(electric).contrast())
                                                       : std::abs(conductivity_contrast(electric));
-  return scale_of(thresholds::least_size * contrast * electric.field.norm(), largest);
+  return scale_of(least_share_of_scale * contrast * electric.field.norm(), largest);
 }
 
 double tension_scale(const Model& model, std::size_t vesicle, double largest) {
   const std::optional<BendingParameters>& bending = model.vesicles[vesicle].bending;
   // κ_B/R² over the area 4π R².
-  return scale_of(bending ? thresholds::least_size * 4.0 * std::numbers::pi * bending->modulus : 0.0, largest);
+  return scale_of(bending ? least_share_of_scale * 4.0 * std::numbers::pi * bending->modulus : 0.0, largest);
 }
 
 Resolution::Resolution(const Model& model, const VesicleState& vesicle, VisibleShare share)
@@ -47,7 +110,7 @@ Resolution::Resolution(const Model& model, const VesicleState& vesicle, VisibleS
 
 Resolution::Resolution(const Model& model, const VesicleState& vesicle, const Matrix& potential, VisibleShare share)
     : potential_share_(share.potential) {
-  const double radius = std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi));
+  const double radius = vesicle.radius();
   shape_ = share.shape * degree_bounds(vesicle.position) / radius;
   shape_[0] = 0.0;  // where the vesicle is
   for_each_property(vesicle.material, [&](const Vector& property) {
@@ -73,7 +136,7 @@ Resolution::Tail Resolution::tail_of_cut(int order) const {
   const int middle = order / 2;
   const int end = std::max(middle + 1, order - 1);
   const double ratio = std::max(bound[end], kFloor) / std::max(bound[middle], kFloor);
-  tail.decay = std::min(thresholds::slowest_decay, std::pow(ratio, 1.0 / (end - middle)));
+  tail.decay = std::min(slowest_decay, std::pow(ratio, 1.0 / (end - middle)));
   return tail;
 }
 

@@ -5,6 +5,14 @@
 
 namespace vehd {
 
+std::vector<std::shared_ptr<const ExplicitEffect>> explicit_effects(const Model& model, const VesicleModel& vesicle) {
+  std::vector<std::shared_ptr<const ExplicitEffect>> result;
+  if (model.flow) result.push_back(std::make_shared<LinearFlowEffect>(*model.flow));
+  result.insert(result.end(), vesicle.effects.begin(), vesicle.effects.end());
+  result.insert(result.end(), model.effects.begin(), model.effects.end());
+  return result;
+}
+
 namespace {
 
 void append(std::vector<EffectDescription>& effects, EffectDescription effect) {
@@ -20,21 +28,13 @@ std::vector<MadeEffect> registered_effects(const Model& model, const VesicleMode
   return result;
 }
 
-}  // namespace
-
-std::vector<std::shared_ptr<const ExplicitEffect>> explicit_effects(const Model& model, const VesicleModel& vesicle) {
-  std::vector<std::shared_ptr<const ExplicitEffect>> result;
-  if (model.flow) result.push_back(std::make_shared<LinearFlowEffect>(*model.flow));
-  result.insert(result.end(), vesicle.effects.begin(), vesicle.effects.end());
-  result.insert(result.end(), model.effects.begin(), model.effects.end());
-  return result;
-}
-
 std::vector<MadeEffect> effects_on(const Model& model, const VesicleModel& vesicle) {
   std::vector<MadeEffect> result = registered_effects(model, vesicle);
   for (auto& effect : explicit_effects(model, vesicle)) result.push_back(std::move(effect));
   return result;
 }
+
+}  // namespace
 
 std::vector<MadeEffect> effects_on_all(const Model& model) {
   std::vector<MadeEffect> result;

@@ -9,9 +9,8 @@
 /// What a step is composed of: everything here follows from which effects the model has.
 namespace vehd {
 
-/// The effects on one vesicle: those of the effect_table, implicit ones first, and whatever else the model lists.
-std::vector<MadeEffect> effects_on(const Model& model, const VesicleModel& vesicle);
-/// Those on all vesicles, one after the other.
+/// The effects on all vesicles, one after the other: those of the effect_table, implicit ones first, and whatever else
+/// the model lists.
 std::vector<MadeEffect> effects_on_all(const Model& model);
 /// The effects on one vesicle that enter explicitly.
 std::vector<std::shared_ptr<const ExplicitEffect>> explicit_effects(const Model& model, const VesicleModel& vesicle);

@@ -5,7 +5,6 @@
 #include <type_traits>
 
 #include "bie/stepping/state/fields.hpp"
-#include "bie/stepping/state/surface_fields.hpp"
 #include "bie/support/ranks/parcel.hpp"
 
 /// The fields of a membrane, each in one row: what carries, turns, resizes, compares, sends, stores and reads them goes
@@ -134,6 +133,13 @@ void for_each_scalar(Fields& fields, const Visit& visit) {
         }
       },
       fields);
+}
+
+/// Are the position and all scalars finite?
+inline bool is_finite(const SurfaceFields& fields) {
+  bool result = fields.position.allFinite();
+  for_each_scalar(fields, [&](const Vector& values) { result = result && values.allFinite(); });
+  return result;
 }
 
 /// All members, as they are sent between processes.

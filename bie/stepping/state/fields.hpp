@@ -4,11 +4,20 @@
 #include <limits>
 #include <vector>
 
+#include "bie/physics/membrane.hpp"
+#include "bie/physics/unknowns.hpp"
 #include "bie/stepping/state/rheology.hpp"
-#include "bie/stepping/state/surface_fields.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd {
+
+/// The unknowns of one membrane with what else rides on its material points, in spherical-harmonic coefficients of one
+/// degree, index n² + n + m (docs/conventions.md). Fields of absent effects are empty.
+struct SurfaceFields : Unknowns {
+  Vector area_strain{};         ///< W/W_ref − 1
+  Vector tension{};             ///< λ, also the initial guess of the next solve; empty unless inextensible
+  MembraneMaterial material{};  ///< what differs from place to place
+};
 
 /// The physical fields of one membrane at one time, instantaneous (no step size enters): coefficients of its degree,
 /// empty where the effect is absent. Forces are per area, acting as in f = f_b + f_λ − f_E.

@@ -10,16 +10,15 @@
 namespace vehd {
 
 /// A recycled subspace of a map between scalars of one membrane, together with the coefficients that its rows stand
-/// for. It can be had for the coefficients of a solve alone, so that a change of degree or symmetry never goes
-/// unnoticed.
+/// for. A solve in other coefficients, after a change of degree or symmetry, finds it empty.
 class RecycledScalars {
  public:
   /// @param entries  coefficient_index of the rows of each scalar, ascending; the scalars stand one below the other
   /// @throws ShapeError unless the rows are those of whole scalars
   RecycledScalars(std::vector<Index> entries, RecycledSubspace subspace);
 
-  /// What is known in these coefficients of n_scalars scalars; nothing if it is known in others. Cut to another degree
-  /// or continued by zeros, responses are those of their arguments only up to what the degrees between them do to each
+  /// The subspace, if it is one in these coefficients of n_scalars scalars; else an empty one. Cut to another degree or
+  /// continued by zeros, responses are those of their arguments only up to what the degrees between them do to each
   /// other, and solves take more iterations with them than without (25 for 19 down from degree 10 to 8, 18 for 12 up to
   /// 13; 11 for 18 at the same degree: a sheared 2 : 1 : 0.9 ellipsoid).
   [[nodiscard]] RecycledSubspace in(const std::vector<Index>& entries, Index n_scalars) const;
@@ -35,7 +34,7 @@ class RecycledScalars {
 /// Null where the subspace is empty.
 std::shared_ptr<const RecycledScalars> recycled_scalars(const std::vector<Index>& entries, RecycledSubspace subspace);
 
-/// The same on its way from one rank to another.
+/// As ranks send it.
 struct SentScalars {
   std::shared_ptr<const RecycledScalars> known;  ///< or null
 };
@@ -43,18 +42,18 @@ struct SentScalars {
 void visit_members(const SentScalars& sent, Packing& packing);
 void visit_members(SentScalars& sent, Unpacking& unpacking);
 
-/// What velocity solves have learned of their operators, in the coefficients that the symmetry leaves; nothing known:
-/// null. Directions that served one step serve the next, whose operators are nearly the same.
+/// What velocity solves recycle, in the coefficients that the symmetry leaves; null: nothing. Directions that served
+/// one step serve the next, whose operators are nearly the same.
 struct RecycledSubspaces {
   std::shared_ptr<const RecycledScalars> tension;  ///< λ ↦ J ∇_γ·u
   std::shared_ptr<const RecycledScalars> flow;     ///< (h, λ) ↦ (Hop(u), J ∇_γ·u), see FlowScalars
-  std::int64_t unaided_iterations = 0;             ///< of the last step that nothing of `flow` was known for
+  std::int64_t unaided_iterations = 0;             ///< of the last step without `flow`
   std::int64_t pause = 0;                          ///< steps to go until `flow` is kept again
 };
 
-/// What is recycled after a step. On grids with poles in bad places the flow takes more iterations with what is known
-/// than without: where it took more than twice as many as the last unaided step, the next steps go without it.
-/// @param flow        what the step leaves to recycle in velocity solves
+/// What is recycled after a step. On grids with poles in bad places the flow takes more iterations with recycling than
+/// without: where it took more than twice as many as the last step without, the next ones go without it.
+/// @param flow        that the step leaves for velocity solves
 /// @param iterations  of the step
 RecycledSubspaces after_step(const RecycledSubspaces& before, std::shared_ptr<const RecycledScalars> flow,
                              int iterations);

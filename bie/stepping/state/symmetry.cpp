@@ -4,14 +4,158 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
+#include "bie/physics/interaction.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/state/composition.hpp"
-#include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/field_table.hpp"
-#include "bie/stepping/state/invariance.hpp"
 
 namespace vehd {
+
+bool is_invariant_under_rotations(const Model& model) {
+  return std::ranges::all_of(effects_on_all(model),
+                             [](const MadeEffect& effect) { return effect->is_invariant_under_rotations(); });
+}
+
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+/// Sign that V_m takes under the reflection g: that of g E = ± E. 0 where the field has another image, or the flow or
+/// any other effect.
+int potential_sign(const Model& model, const Reflection& g) {
+  bool is_reversed = false;
+  for (const MadeEffect& effect : effects_on_all(model)) {
+    const int sign = effect->potential_sign(g);
+    if (sign == 0) return 0;
+    is_reversed = is_reversed || sign < 0;
+  }
+  return is_reversed ? -1 : 1;
+}
+
+/// Are place, shape, strain, V_m and material of both membranes the same? Lengths are compared with the size of the
+/// second one.
+bool are_same(const SurfaceFields& image, const SurfaceFields& fields) {
+  bool result = true;
+  const auto compare = [&](const FieldRow& row, const auto& a, const auto& b) {
+    if (!result || row.role == FieldRole::guess || (a.size() == 0 && b.size() == 0)) return;
+    result = a.rows() == b.rows();
+    if (!result) return;
+    // A place counts by the size of the shape, and what has no unit by 1.
+    double size = row.dimension == "1" ? 1.0 : b.cwiseAbs().maxCoeff();
+    if (row.kind == FieldKind::vector) size = b.bottomRows(b.rows() - 1).cwiseAbs().maxCoeff();
+    result = (a - b).cwiseAbs().maxCoeff() <= kRounding * size;
+  };
+  for_each_field(compare, image, fields);
+  return result;
+}
+
+bool are_alike(const VesicleModel& a, const VesicleModel& b) {
+  return a.viscosity_ratio == b.viscosity_ratio && a.inextensible == b.inextensible && a.bending == b.bending &&
+         a.undulations == b.undulations && a.inside == b.inside && a.charging == b.charging &&
+         a.criterion == b.criterion && a.reaction == b.reaction && a.by_place == b.by_place && a.pump == b.pump &&
+         std::ranges::equal(a.effects, b.effects,
+                            [](const auto& one, const auto& other) { return one->is_same_as(*other); });
+}
+
+/// Where a map takes each vesicle; nothing if any is taken to where none is like it.
+std::optional<Exchange::Map> exchange_under(const ImageOfFields& of_fields, const Model& model, const State& state) {
+  Exchange::Map map{of_fields, {}};
+  const std::size_t n = state.vesicles.size();
+  for (std::size_t a = 0; a < n; ++a) {
+    const SurfaceFields image = image_of<SurfaceFields>(of_fields, state.vesicles[a]);
+    std::size_t b = 0;
+    while (b < n && !(are_alike(model.vesicles[a], model.vesicles[b]) && are_same(image, state.vesicles[b]))) ++b;
+    if (b == n) return std::nullopt;
+    map.places.push_back(b);
+  }
+  return map;
+}
+
+/// Is there a vesicle that all maps but the identity move, and none that only some do?
+bool is_free(const std::vector<Exchange::Map>& maps) {
+  const auto moved_by = [](const Exchange::Map& map) {
+    std::vector<bool> moved;
+    for (std::size_t a = 0; a < map.places.size(); ++a) moved.push_back(map.places[a] != a);
+    return moved;
+  };
+  if (maps.size() < 2) return false;
+  const std::vector<bool> moved = moved_by(maps[1]);
+  return std::ranges::count(moved, true) > 0 &&
+         std::all_of(maps.begin() + 1, maps.end(), [&](const Exchange::Map& map) { return moved_by(map) == moved; });
+}
+
+Reflection product(const Reflection& a, const Reflection& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+/// Adds one reflection after the other to the group as long as it stays free.
+std::vector<Exchange::Map> group_of_reflections(const Model& model, const State& state) {
+  std::vector<Exchange::Map> group{*exchange_under({}, model, state)};
+  for (int bits = 1; bits < 8; ++bits) {
+    const Reflection g{bits & 1 ? -1 : 1, bits & 2 ? -1 : 1, bits & 4 ? -1 : 1};
+    std::vector<Exchange::Map> larger = group;
+    for (const Exchange::Map& known : group) {
+      const Reflection both = product(g, known.of_fields.map.reflection);
+      const int sign = potential_sign(model, both);
+      const auto map = sign == 0 ? std::nullopt : exchange_under({{both}, sign}, model, state);
+      if (map) larger.push_back(*map);
+    }
+    if (larger.size() == 2 * group.size() && is_free(larger)) group = std::move(larger);
+  }
+  return group;
+}
+
+/// The most equal turns about z, at least three.
+std::vector<Exchange::Map> group_of_turns(const Model& model, const State& state) {
+  if (!is_invariant_under_rotations(model)) return {};
+  for (int fold = static_cast<int>(state.vesicles.size()); fold > 2; --fold) {
+    std::vector<Exchange::Map> group;
+    for (int turn = 0; turn < fold; ++turn) {
+      const auto map = exchange_under({{{}, turn, fold}, 1}, model, state);
+      if (!map) break;
+      group.push_back(*map);
+    }
+    if (std::ssize(group) == fold && is_free(group)) return group;
+  }
+  return {};
+}
+
+/// Which vesicles of a scene are images of others: equal ones, up to a few, that mirrors and half turns of the whole
+/// or turns about z take to one another; of these groups the one that leaves least to compute. See Exchange for which
+/// groups count.
+Exchange find_exchange(const Model& model, const State& state) {
+  const std::size_t n = state.vesicles.size();
+  if (n < 2 || n > most_summed_membranes) return {};
+  Exchange best;
+  for (const auto group_of : {group_of_reflections, group_of_turns}) {
+    std::vector<Exchange::Map> group = group_of(model, state);
+    if (!is_free(group)) continue;
+    Exchange found(std::move(group));
+    if (found.n_originals(n) < best.n_originals(n)) best = std::move(found);
+  }
+  return best;
+}
+
+}  // namespace
+
+State with_images(const Exchange& exchange, State state) {
+  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
+    if (!exchange.is_image(a)) continue;
+    const VesicleState& original = state.vesicles[exchange.original(a)];
+    VesicleState& vesicle = state.vesicles[a];
+    static_cast<SurfaceFields&>(vesicle) = image_of<SurfaceFields>(exchange.image(a), original);
+    vesicle.reference_area = original.reference_area;
+    vesicle.reference_volume = original.reference_volume;
+    vesicle.quadrature_level = original.quadrature_level;
+  }
+  return state;
+}
+
+std::vector<int> with_images(const Exchange& exchange, std::vector<int> orders) {
+  for (std::size_t a = 0; a < orders.size(); ++a) orders[a] = orders[exchange.original(a)];
+  return orders;
+}
 
 namespace {
 
@@ -25,17 +169,11 @@ bool has(const Symmetry& symmetry, const State& state) {
                      [&](const VesicleState& vesicle) { return has(symmetry, vesicle); });
 }
 
-int highest_degree(const State& state) {
-  int highest = 0;
-  for (const VesicleState& vesicle : state.vesicles) highest = std::max(highest, order_of(vesicle.position.rows()));
-  return highest;
-}
-
 /// The largest number of equal turns about z, at least three, under which the scene is its own image; 1 if there is
 /// none. Beyond 2p + 2 it would not save anything.
 int find_fold(const Model& model, const State& state) {
   if (!is_invariant_under_rotations(model)) return 1;
-  for (int fold = 2 * highest_degree(state) + 2; fold > 2; --fold) {
+  for (int fold = 2 * highest_order_of(state) + 2; fold > 2; --fold) {
     Symmetry turns;
     turns.fold = fold;
     if (has(turns, state)) return fold;
@@ -59,14 +197,6 @@ SurfaceFields symmetric_part(const SymmetrySubspace& subspace, SurfaceFields fie
       },
       fields);
   return fields;
-}
-
-State symmetric_part(const Symmetry& symmetry, State state) {
-  for (VesicleState& vesicle : state.vesicles) {
-    static_cast<SurfaceFields&>(vesicle) =
-        symmetric_part(SymmetrySubspace(symmetry, order_of(vesicle.position.rows())), vesicle);
-  }
-  return state;
 }
 
 Symmetry find_symmetry(const Model& model, const State& state) {

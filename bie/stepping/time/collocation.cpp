@@ -4,9 +4,15 @@
 #include <cmath>
 #include <utility>
 
-#include "bie/stepping/thresholds.hpp"
-
 namespace vehd {
+
+namespace {
+
+/// From one derivative of a motion to the next, with the time over the step, no more than this is continued: what grows
+/// faster is a jump. Measured.
+constexpr double largest_derivative_ratio = 8.0;
+
+}  // namespace
 
 Collocation::Collocation(StepOperations& physics, const TimeRule& rule, double dt, NodeEnd end, Predictor predictor)
     : physics_(physics), rule_(rule), dt_(dt), predictor_(predictor) {
@@ -132,7 +138,7 @@ double derivative(int k, const std::vector<VisibleDifference>& known, double Vis
   const int last = static_cast<int>(known.size());
   if (k <= last) return at(k);
   if (last < 2 || at(1) <= 0.0) return at(last);
-  const double ratio = std::min(thresholds::largest_derivative_ratio, std::pow(at(last) / at(1), 1.0 / (last - 1.0)));
+  const double ratio = std::min(largest_derivative_ratio, std::pow(at(last) / at(1), 1.0 / (last - 1.0)));
   return at(last) * std::pow(ratio, k - last);
 }
 

@@ -20,7 +20,7 @@ void StepAttempt::add_work_of(const StepAttempt& former) {
 
 void StepAttempt::reject(const std::string& why) {
   accepted = false;
-  factor = 0.5;
+  failed = true;
   reason = why;
 }
 
@@ -51,14 +51,6 @@ void try_to_reach(const StepGoal& goal, double dt, int order, StepOperations& ph
   }
 }
 
-bool is_finite(const State& state) {
-  return std::ranges::all_of(state.vesicles, [](const VesicleState& vesicle) {
-    bool result = vesicle.position.allFinite();
-    for_each_scalar(vesicle, [&](const Vector& values) { result = result && values.allFinite(); });
-    return result;
-  });
-}
-
 }  // namespace
 
 StepAttempt attempt_step(const Model& model, const Discretisation& discretisation, const State& state,
@@ -77,8 +69,10 @@ StepAttempt attempt_step(const Model& model, const Discretisation& discretisatio
       attempt.state = physics.end_state(end.node);
       attempt.accepted = true;
     }
-    if (attempt.accepted && !is_finite(attempt.state))
+    const auto finite = [](const VesicleState& vesicle) { return is_finite(vesicle); };
+    if (attempt.accepted && !std::ranges::all_of(attempt.state.vesicles, finite)) {
       throw ConvergenceError("the state behind the step is not finite");
+    }
   } catch (const ConvergenceError& error) {
     attempt.reject(error.what());
   }

@@ -4,16 +4,17 @@
 #include <vector>
 
 #include "bie/stepping/evaluation/evaluation.hpp"
-#include "bie/stepping/time/controlled_sweeps.hpp"
+#include "bie/stepping/time/deferred_correction.hpp"
 
 namespace vehd {
 
 /// Result of one attempt at a step, with the work of the attempts before it.
 struct StepAttempt {
   bool accepted = false;
-  std::string reason;  ///< why it was rejected; empty when accepted
-  State state;         ///< at its end, when accepted
-  double dt = 0.0;     ///< its size
+  bool failed = false;  ///< rejected because a solve failed
+  std::string reason;   ///< why it was rejected; empty when accepted
+  State state;          ///< at its end, when accepted
+  double dt = 0.0;      ///< its size
   /// Without a tolerance the last correction, of x over the radius or of V_m over its size; 0 without one. With a
   /// tolerance the estimated error of the step over the share of the tolerance that one step may leave.
   double error_estimate = 0.0;
@@ -30,7 +31,7 @@ struct StepAttempt {
 
   /// Adds the work of the attempts before this one.
   void add_work_of(const StepAttempt& former);
-  /// Rejects it; the next attempt has half the size.
+  /// Rejects it because a solve failed.
   void reject(const std::string& why);
 };
 

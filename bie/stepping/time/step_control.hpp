@@ -1,8 +1,11 @@
 #pragma once
 
-#include "bie/stepping/time/step_attempt.hpp"
-#include "bie/stepping/time/step_plan.hpp"
+#include <vector>
 
+#include "bie/stepping/time/events.hpp"
+#include "bie/stepping/time/step_attempt.hpp"
+
+/// Everything that decides the size of a step.
 namespace vehd {
 
 /// Limits of the size of steps.
@@ -14,6 +17,36 @@ struct StepControl {
 
 /// Steps of size dt, halved ten times at most where they fail.
 StepControl fixed_steps(double dt);
+
+/// A first step with a tolerance, small against the time in which the start changes: half the root of the tolerance, of
+/// the order of the scheme, over the fastest rate of any membrane; the largest step where nothing changes.
+/// @param state  at the start, evaluated
+double first_step(const StepControl& control, int time_order, const Model& model, const State& state,
+                  const SolvedFields& solved);
+
+/// How far the next step goes.
+struct StepPlan {
+  double wanted = 0.0;         ///< its size if there were no events
+  double dt = 0.0;             ///< its size
+  double event_time = 0.0;     ///< next snapshot, discontinuity or the end
+  bool reaches_event = false;  ///< the step ends at event_time
+  bool is_snapshot = true;     ///< a snapshot is due at event_time
+};
+
+/// The way to the next event in equal steps no longer than is wanted, so that no sliver is left before it. A remainder
+/// within 1e-9 of a whole number of steps counts as whole.
+/// Accuracy: steps end on every event to rounding (tests/stepping/time/step_plan_test.cpp)
+StepPlan plan_step(double time, double wanted, const EventTimes& events);
+
+/// Size with the allowed error over that of the step, where the error is proportional to dt^power.
+/// @param excess  error over the allowed error
+double size_factor(double excess, int power);
+
+/// Size of the least work for a unit of time over that of the step: a step with j sweeps on M nodes takes 1 + M j
+/// evaluations, and its error falls like dt^(j+1), or dt^(j+1+M) with an extrapolation through M nodes.
+/// @param excess         error over the allowed error after sweep `fewest_sweeps` and each further one
+/// @param extrapolates   the predictor is such an extrapolation
+double cheapest_factor(const std::vector<double>& excess, int fewest_sweeps, int n_nodes, bool extrapolates);
 
 /// Size of the next attempt after a rejected one: half if a solve failed, the best size by its error estimate
 /// otherwise.

@@ -4,19 +4,27 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "bie/physics/averaged_field.hpp"
 #include "bie/physics/membrane_charging.hpp"
+#include "bie/stepping/space/remap.hpp"
 #include "bie/stepping/space/resolution.hpp"
-#include "bie/stepping/state/exchange.hpp"
 #include "bie/stepping/state/symmetry.hpp"
-#include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
+#include "bie/support/parallel.hpp"
 #include "bie/support/side_by_side.hpp"
 
 namespace vehd {
 
 namespace {
+
+/// A disturbance that relaxes by more than all of it in one explicit step overshoots. The first-order step leaves
+/// explicit the tension under which a disturbance of a sphere relaxes by this share, and holds the rest.
+constexpr double relaxation_left_explicit = 0.5;
+/// A potential without a field that is this small over |E|R has decayed: its stress, its square, is below rounding.
+constexpr double decayed_potential = 1e-10;
 
 /// −λ under which the softest disturbance of a sphere, an ellipsoidal one, is no longer resisted: 3κ_B/R²
 /// (quasi-spherical theory).
@@ -48,7 +56,7 @@ StepOperations::StepOperations(const Model& model, const Discretisation& discret
   const int time_order = discretisation.settings().time_order;
   // The paper's scheme leaves explicit what a change of H does to the tension that is there, which overshoots where
   // tensions are large, as near the sphere.
-  const double explicit_relaxation = time_order == 1 ? thresholds::explicit_relaxation : 0.0;
+  const double explicit_relaxation = time_order == 1 ? relaxation_left_explicit : 0.0;
   for (std::size_t a = 0; a < start.vesicles.size(); ++a) {
     const FlowParameters parameters = flow_parameters(model, model.vesicles[a]);
     const VesicleSolution& solution = at_start.vesicles[a];
@@ -209,8 +217,7 @@ void StepOperations::take(Unknowns charged, double time, std::size_t a, SurfaceF
 void StepOperations::forget_decayed(double time, std::size_t a, Vector& potential) const {
   if (model_.vesicles[a].pump) return;
   const double scale = model_.electric->field.norm() * at_start_.vesicles[a].membrane->radius;
-  if (model_.electric->waveform.is_quiet(time) && potential.norm() < thresholds::decayed_potential * scale)
-    potential.setZero();
+  if (model_.electric->waveform.is_quiet(time) && potential.norm() < decayed_potential * scale) potential.setZero();
 }
 
 State StepOperations::state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const {
@@ -243,54 +250,89 @@ State StepOperations::end_state(const NodeSolution& node) const {
   return state;
 }
 
-double StepOperations::potential_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
-  if (y.transmembrane_potential.size() == 0) return 0.0;
-  const SphereTransform& fine = discretisation_.vesicle(a).fine_transform();
-  const double size = fine.synthesize(y.transmembrane_potential).cwiseAbs().maxCoeff();
-  const Matrix change = fine.synthesize(y.transmembrane_potential - x.transmembrane_potential);
-  return change.cwiseAbs().maxCoeff() / potential_scale(*model_.electric, at_start_.vesicles[a].membrane->radius, size);
+namespace {
+
+/// A motion with the iterations that it took, or why there is none.
+struct CountedMotion {
+  Motion motion;
+  int iterations = 0;
+  std::string failure{};
+};
+
+template <MaybeConst<CountedMotion> Sent, typename Visit>
+void visit_members(Sent& sent, Visit& visit) {
+  visit(sent.motion, sent.iterations, sent.failure);
 }
 
-/// The state is a pure number that becomes of the order of one, or a logarithm.
-double StepOperations::poration_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
-  if (y.poration.size() == 0) return 0.0;
-  return discretisation_.vesicle(a).fine_transform().synthesize(y.poration - x.poration).cwiseAbs().maxCoeff();
-}
+}  // namespace
 
-double StepOperations::difference(const NodeSolution& a, const NodeSolution& b) const {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
-    const SphereTransform& fine = discretisation_.vesicle(i).fine_transform();
-    const SurfaceFields& x = a.vesicles[i].material;
-    const SurfaceFields& y = b.vesicles[i].material;
-    const double moved = fine.synthesize(y.position - x.position).rowwise().norm().maxCoeff();
-    largest = std::max({largest, moved / at_start_.vesicles[i].membrane->radius, potential_difference(i, x, y),
-                        poration_difference(i, x, y)});
+std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& starts, const RigidMotion& rigid, double dt,
+                                            NodeEnd end, NodeWork& work) {
+  std::vector<CountedMotion> all(starts.size());
+  const auto move = [&](std::size_t a, Instruments& instruments) {
+    CountedMotion& of_one = all[a];
+    try {
+      of_one.motion = motion(a, starts[a], rigid, dt, end, instruments, of_one.iterations);
+      if (!is_finite(of_one.motion.arrived)) throw ConvergenceError("the new state is not finite");
+    } catch (const ConvergenceError& error) {
+      of_one.failure = error.what();
+      throw;
+    }
+  };
+  shares().ranks().together([&] {
+    try {
+      for_each_member(shares().own(all.size()), work.instruments, move);
+    } catch (const ConvergenceError&) {
+      // Which vesicle is the first without a motion all ranks have to say.
+    }
+    shares().gather(all, [this](const CountedMotion& of_original, std::size_t a) -> CountedMotion {
+      const ImageOfFields& image = discretisation_.symmetry().exchange.image(a);
+      Motion motion = of_original.motion;
+      for (SurfaceFields* fields : {&motion.material, &motion.arrived}) *fields = image_of(image, *fields);
+      return {std::move(motion)};
+    });
+  });
+  std::vector<Motion> result;
+  for (CountedMotion& of_one : all) {
+    // Those of solves that fail count all the same.
+    work.iterations.flow += of_one.iterations;
+    if (!of_one.failure.empty()) throw ConvergenceError(of_one.failure);
+    result.push_back(std::move(of_one.motion));
   }
-  return largest;
+  return result;
 }
 
-double StepOperations::normal_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
-  const SphereTransform& fine = discretisation_.vesicle(a).fine_transform();
-  const SphereDerivatives there = fine.synthesize_gradient(y.position);
-  const Matrix change = fine.synthesize(y.position - x.position);
-  double largest = 0.0;
-  for (Index i = 0; i < change.rows(); ++i) {
-    const Vector3 across = Vector3(there.d1.row(i)).cross(Vector3(there.d2.row(i)));
-    largest = std::max(largest, std::abs(across.dot(Vector3(change.row(i)))) / across.norm());
+Motion StepOperations::motion(std::size_t a, const MotionStart& start, const RigidMotion& rigid, double dt, NodeEnd end,
+                              Instruments& instruments, int& iterations) {
+  const VesicleSolution& solution = at_start_.vesicles[a];
+  if (!model_.mobile) {
+    Motion resting;
+    resting.material = resting.arrived = start.fields;
+    return resting;
   }
-  return largest / at_start_.vesicles[a].membrane->radius;
+  const auto timer = instruments.time("velocity solve");
+  if (solution.is_sphere) {
+    const Membrane& sphere = *solution.membrane;
+    const SphereMotion moved = rigid(a, sphere);
+    Motion result;
+    result.material = moved_sphere(start.fields, sphere, moved);
+    result.arrived = end == NodeEnd::material
+                         ? result.material
+                         : at_translated_nodes(start_.vesicles[a].position, sphere, moved, result.material);
+    return result;
+  }
+  const FlowParameters parameters = flow_parameters(model_, model_.vesicles[a]);
+  return constrained_motion({parameters, discretisation_.settings(), start_.vesicles[a], *solution.membrane}, start, dt,
+                            flow_[a].of(dt), arrival(a, end, instruments), iterations);
 }
 
-VisibleDifference StepOperations::visible_difference(const NodeSolution& a, const NodeSolution& b) const {
-  VisibleDifference largest;
-  for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
-    const SurfaceFields& x = a.vesicles[i].material;
-    const SurfaceFields& y = b.vesicles[i].material;
-    largest.shape = std::max(largest.shape, normal_difference(i, x, y));
-    largest.potential = std::max({largest.potential, potential_difference(i, x, y), poration_difference(i, x, y)});
-  }
-  return largest;
+Arrival StepOperations::arrival(std::size_t a, NodeEnd end, Instruments& instruments) const {
+  if (end == NodeEnd::material) return [](const SurfaceFields& material) { return material; };
+  return [this, a, &instruments](const SurfaceFields& material) {
+    const auto timer = instruments.time("remap");
+    return remap(discretisation_.vesicle(a).fine_transform(), material.position - start_.vesicles[a].position,
+                 material);
+  };
 }
 
 }  // namespace vehd

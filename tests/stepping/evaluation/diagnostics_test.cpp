@@ -24,7 +24,7 @@ VesicleDiagnostics diagnostics_of_shape(const Matrix& position) {
 }
 
 /// Of V_m = z, without layers.
-VesicleDiagnostics diagnostics_of_potential(const Matrix& position, const DiagnosedModel& model = {},
+VesicleDiagnostics diagnostics_of_potential(const Matrix& position, const Model& model = {},
                                             const Matrix& velocity = {}) {
   const int order = order_of(position.rows());
   const SphereTransform fine(order, make_grid(2 * order));
@@ -41,7 +41,8 @@ VesicleDiagnostics diagnostics_of_potential(const Matrix& position, const Diagno
   VesicleSolution solution;
   solution.membrane =
       std::make_shared<const Membrane>(Membrane{fine, std::move(surface), {}, 1.0, SymmetrySubspace({}, order)});
-  return diagnose(model, MembraneSpace(settings, {}), settings.quadrature_tolerance, vesicle, solution, fields);
+  return diagnose(model, model.vesicles[0], MembraneSpace(settings, {}), settings.quadrature_tolerance, vesicle,
+                  solution, fields);
 }
 
 Matrix rotated_about_y(const Matrix& position, double degrees) {
@@ -181,8 +182,8 @@ BOOST_AUTO_TEST_CASE(integrals_are_taken_over_the_surface) {
 BOOST_AUTO_TEST_CASE(potential_is_read_at_both_poles_of_the_field) {
   const Vector3 axes(1.0, 1.3, 2.0), centre(4.0, -3.0, 1.0);
   for (const Vector3& field : {Vector3(0.0, 0.0, 2.0), Vector3(0.0, 0.0, -3.0), Vector3(1.0, 0.5, -0.2)}) {
-    DiagnosedModel model;
-    model.field = field;
+    Model model;
+    model.electric.emplace().field = field;
     const VesicleDiagnostics d = diagnostics_of_potential(translated(ellipsoid(kOrder, axes), centre), model);
     // x = s e with |x/axes| = 1.
     const double reach = 1.0 / field.cwiseQuotient(axes).norm();
@@ -208,8 +209,8 @@ BOOST_AUTO_TEST_CASE(shape_rate_is_that_of_the_shape_alone) {
 }
 
 BOOST_AUTO_TEST_CASE(aspect_ratios_of_an_ellipsoid_are_those_of_its_axes) {
-  DiagnosedModel model;
-  model.field = Vector3(3.0, 0.0, 0.0);
+  Model model;
+  model.electric.emplace().field = Vector3(3.0, 0.0, 0.0);
   const Matrix disc = translated(ellipsoid(kOrder, {0.5, 1.5, 1.5}), {2.0, 0.0, -7.0});
   const VesicleDiagnostics d = diagnostics_of_potential(disc, model);
   BOOST_TEST(std::abs(d.aspect_ratio - 3.0) < 1e-10);

@@ -1,5 +1,3 @@
-#include "bie/stepping/evaluation/growth.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>

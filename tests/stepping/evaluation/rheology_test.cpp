@@ -6,7 +6,7 @@
 
 #include "bie/physics/effects/gravity.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
-#include "bie/stepping/state/rotated.hpp"
+#include "bie/stepping/state/frame.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/space/resolution.hpp"
-#include "bie/stepping/state/resized.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"

@@ -1,5 +1,3 @@
-#include "bie/stepping/space/visible_share.hpp"
-
 #include <boost/test/unit_test.hpp>
 
 #include "bie/stepping/space/resolution.hpp"

@@ -5,7 +5,6 @@
 #include "bie/physics/effects/gravity.hpp"
 #include "bie/physics/effects/poiseuille_flow.hpp"
 #include "bie/stepping/evaluation/lab_frame_output.hpp"
-#include "bie/stepping/state/rotated.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 

@@ -2,8 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "bie/stepping/state/frame.hpp"
-#include "bie/stepping/state/resized.hpp"
-#include "bie/stepping/state/rotated.hpp"
+#include "bie/stepping/state/state.hpp"
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/support/runs.hpp"

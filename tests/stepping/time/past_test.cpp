@@ -1,10 +1,11 @@
+#include "bie/stepping/time/past.hpp"
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <vector>
 
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/time/collocation.hpp"
-#include "bie/stepping/time/smooth_past.hpp"
 #include "tests/support/runs.hpp"
 #include "tests/support/shapes.hpp"
 

@@ -1,8 +1,8 @@
-#include "bie/stepping/time/step_plan.hpp"
-
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <vector>
+
+#include "bie/stepping/time/step_control.hpp"
 
 BOOST_AUTO_TEST_SUITE(step_plan)
 

@@ -32,4 +32,11 @@ struct SnapshotTimes {
   [[nodiscard]] double count(double end) const;
 };
 
+/// The instants at which a step has to end exactly.
+struct EventTimes {
+  SnapshotTimes snapshots;
+  double end_time = 0.0;
+  std::optional<double> discontinuity = std::nullopt;  ///< where the forcing changes abruptly; no snapshot is due there
+};
+
 }  // namespace vehd

@@ -1,9 +1,10 @@
-#include "bie/stepping/time/snapshot_times.hpp"
+#include "bie/stepping/time/events.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace vehd {
+
 namespace {
 
 /// Of the spacing of snapshots.

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+
+#include "bie/sphere/harmonics.hpp"
+#include "bie/stepping/space/resolution.hpp"
+#include "bie/stepping/time/step_operations.hpp"
+
+namespace vehd {
+
+namespace {
+
+TensionIntegrals tension_integrals(const VesicleSolution& solution, const VesicleFields& fields) {
+  if (fields.tension.size() == 0 || solution.is_sphere) return {};
+  const Membrane& membrane = *solution.membrane;
+  const Vector tension = membrane.fine.synthesize(fields.tension);
+  return {tension.dot(membrane.surface.quadrature), tension.cwiseAbs().dot(membrane.surface.quadrature)};
+}
+
+double largest_value(const SphereTransform& fine, const Matrix& coefficients) {
+  return fine.synthesize(coefficients).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+Rate rate_of(const SolvedFields& solved) {
+  Rate rate;
+  for (std::size_t a = 0; a < solved.vesicles.size(); ++a) {
+    const VesicleSolution& solution = solved.vesicles[a];
+    const VesicleFields& fields = solved.fields.vesicles[a];
+    rate.unknowns.push_back(solution.rate);
+    rate.instantaneous.push_back({fields.charge_amplitude.size() > 0 ? fields.charge_amplitude : Matrix(fields.charge),
+                                  fields.potential_amplitude, tension_integrals(solution, fields)});
+  }
+  return rate;
+}
+
+InstantaneousDifference instantaneous_difference(const Model& model, const SolvedFields& grids, const Rate& a,
+                                                 const Rate& b) {
+  InstantaneousDifference largest;
+  for (std::size_t i = 0; i < b.instantaneous.size(); ++i) {
+    const Rate::Instantaneous& x = a.instantaneous[i];
+    const Rate::Instantaneous& y = b.instantaneous[i];
+    const double tension = std::abs(y.tension.sum - x.tension.sum);
+    largest.tension = std::max(largest.tension, tension / tension_scale(model, i, y.tension.magnitude));
+    if (x.charge.size() == 0 || y.charge.size() == 0) continue;
+    const Membrane& membrane = *grids.vesicles[i].membrane;
+    const SphereTransform& fine = membrane.fine;
+    const auto change = [&](const Matrix& from, const Matrix& to) {
+      return largest_value(fine, to - resize_order(from, fine.order()));
+    };
+    largest.charge =
+        std::max(largest.charge, change(x.charge, y.charge) / charge_scale(model, i, largest_value(fine, y.charge)));
+    if (y.potential_amplitude.size() == 0) continue;
+    const double size = largest_value(fine, y.potential_amplitude);
+    largest.charge = std::max(largest.charge, change(x.potential_amplitude, y.potential_amplitude) /
+                                                  potential_scale(*model.electric, membrane.radius, size));
+  }
+  return largest;
+}
+
+double StepOperations::potential_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
+  if (y.transmembrane_potential.size() == 0) return 0.0;
+  const SphereTransform& fine = discretisation_.vesicle(a).fine_transform();
+  const double size = fine.synthesize(y.transmembrane_potential).cwiseAbs().maxCoeff();
+  const Matrix change = fine.synthesize(y.transmembrane_potential - x.transmembrane_potential);
+  return change.cwiseAbs().maxCoeff() / potential_scale(*model_.electric, at_start_.vesicles[a].membrane->radius, size);
+}
+
+/// The state is a pure number that becomes of the order of one, or a logarithm.
+double StepOperations::poration_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
+  if (y.poration.size() == 0) return 0.0;
+  return discretisation_.vesicle(a).fine_transform().synthesize(y.poration - x.poration).cwiseAbs().maxCoeff();
+}
+
+double StepOperations::difference(const NodeSolution& a, const NodeSolution& b) const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
+    const SphereTransform& fine = discretisation_.vesicle(i).fine_transform();
+    const SurfaceFields& x = a.vesicles[i].material;
+    const SurfaceFields& y = b.vesicles[i].material;
+    const double moved = fine.synthesize(y.position - x.position).rowwise().norm().maxCoeff();
+    largest = std::max({largest, moved / at_start_.vesicles[i].membrane->radius, potential_difference(i, x, y),
+                        poration_difference(i, x, y)});
+  }
+  return largest;
+}
+
+double StepOperations::normal_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
+  const SphereTransform& fine = discretisation_.vesicle(a).fine_transform();
+  const SphereDerivatives there = fine.synthesize_gradient(y.position);
+  const Matrix change = fine.synthesize(y.position - x.position);
+  double largest = 0.0;
+  for (Index i = 0; i < change.rows(); ++i) {
+    const Vector3 across = Vector3(there.d1.row(i)).cross(Vector3(there.d2.row(i)));
+    largest = std::max(largest, std::abs(across.dot(Vector3(change.row(i)))) / across.norm());
+  }
+  return largest / at_start_.vesicles[a].membrane->radius;
+}
+
+VisibleDifference StepOperations::visible_difference(const NodeSolution& a, const NodeSolution& b) const {
+  VisibleDifference largest;
+  for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
+    const SurfaceFields& x = a.vesicles[i].material;
+    const SurfaceFields& y = b.vesicles[i].material;
+    largest.shape = std::max(largest.shape, normal_difference(i, x, y));
+    largest.potential = std::max({largest.potential, potential_difference(i, x, y), poration_difference(i, x, y)});
+  }
+  return largest;
+}
+
+}  // namespace vehd
