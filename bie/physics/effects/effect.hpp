@@ -30,7 +30,7 @@ struct EffectDescription {
 /// What an effect sees: a frozen membrane at one time.
 struct EffectInput {
   const Membrane& membrane;
-  const Matrix& position;  ///< coefficients of x
+  const Matrix& position;  ///< coefficients of x, [n_coefficients x 3]
   double time;
   Limit limit = Limit::after;  ///< which value counts where a waveform jumps at this time
 };
