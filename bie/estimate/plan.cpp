@@ -108,7 +108,9 @@ std::map<std::string, std::uint64_t> pair_targets_of(const Problem& problem, con
   }
   // Without layers the targets are sorted and no more.
   std::vector<InteractingMembrane> membranes;
-  for (const Matrix& position : positions) membranes.push_back({position, space.targets(), {}});
+  for (const Matrix& position : positions) {
+    membranes.push_back({position, space.targets(), {}, space.subspace().symmetry()});
+  }
   Instruments instruments;
   const Exchange& exchange = problem.symmetry.exchange;
   const Interaction sorted(membranes, pair_settings(problem.settings), instruments,

@@ -28,6 +28,71 @@ TargetNodes target_nodes(const InteractingMembrane& membrane) {
   return result;
 }
 
+/// Nodes that symmetries take to one another: of each set of them one has its values found, the others have its images.
+class NodeImages {
+ public:
+  NodeImages(const SphereGrid& grid, const Symmetry& symmetry) : images_(static_cast<std::size_t>(grid.n_points())) {
+    const int fold = symmetry.axisymmetric ? grid.n_phi : symmetry.fold;
+    const auto image_of = [&](Index node, const Reflection& g, int turn) {
+      const Index latitude = node / grid.n_phi;
+      const int azimuth = g.azimuth(static_cast<int>(node % grid.n_phi), grid.n_phi) + turn * (grid.n_phi / fold);
+      return (g.z > 0 ? latitude : grid.n_theta - 1 - latitude) * grid.n_phi + azimuth % grid.n_phi;
+    };
+    maps_.push_back({Matrix3::Identity(), 1.0});
+    for (Index node = 0; node < grid.n_points(); ++node) {
+      if (images_[static_cast<std::size_t>(node)].original >= 0) continue;
+      const Index original = std::ssize(originals_);
+      originals_.push_back(node);
+      images_[static_cast<std::size_t>(node)] = {original, 0};
+      for (std::size_t g = 0; g < symmetry.reflections.size(); ++g) {
+        for (int turn = 0; turn < fold; ++turn) {
+          Image& image = images_[static_cast<std::size_t>(image_of(node, symmetry.reflections[g], turn))];
+          if (image.original < 0) image = {original, 1 + g * static_cast<std::size_t>(fold) + turn};
+        }
+      }
+    }
+    for (std::size_t g = 0; g < symmetry.reflections.size(); ++g) {
+      for (int turn = 0; turn < fold; ++turn) {
+        maps_.push_back(
+            {Isometry{symmetry.reflections[g], turn, fold}.matrix(), static_cast<double>(symmetry.potential_signs[g])});
+      }
+    }
+  }
+
+  [[nodiscard]] Index n_originals() const { return std::ssize(originals_); }
+  [[nodiscard]] TargetNodes originals(const TargetNodes& all) const {
+    return {all.points(originals_, Eigen::all), all.area_vectors(originals_, Eigen::all)};
+  }
+  /// Values at all nodes from those at the originals: of a potential, [n x 1], or of a flow, [n x 3].
+  [[nodiscard]] Matrix at_all(const Matrix& values) const {
+    if (originals_.size() == images_.size()) return values;
+    Matrix result(std::ssize(images_), values.cols());
+    for (Index node = 0; node < result.rows(); ++node) {
+      const auto& [original, number] = images_[static_cast<std::size_t>(node)];
+      const Map& map = maps_[number];
+      if (values.cols() == 1) {
+        result(node, 0) = map.potential_sign * values(original, 0);
+      } else {
+        result.row(node) = values.row(original) * map.of_vectors.transpose();
+      }
+    }
+    return result;
+  }
+
+ private:
+  struct Map {
+    Matrix3 of_vectors;
+    double potential_sign;
+  };
+  struct Image {
+    Index original = -1;  ///< number among the originals
+    std::size_t map = 0;
+  };
+  std::vector<Map> maps_;  ///< the identity first
+  std::vector<Image> images_;
+  std::vector<Index> originals_;
+};
+
 /// Where a value that a source takes at the nodes of a membrane counts: as it is at these nodes, or as what the image
 /// of the source does to another membrane, which is its image.
 struct Use {
@@ -58,6 +123,7 @@ struct Interaction::Parts {
   Shares shares;
   Exchange exchange;
   std::vector<SphereTransform> targets;     ///< of each membrane
+  std::vector<NodeImages> images;           ///< of its nodes, at the originals of which layers are found
   NearLayers direct;                        ///< on others
   std::optional<FarExpansions> expansions;  ///< for all others that these leave, where there are any
   std::optional<Wall> wall;
@@ -78,8 +144,8 @@ struct Interaction::Parts {
     if (expansions) {
       values = expansions->apply(layer, std::vector<Matrix>(densities.begin(), densities.end()));
     } else {
-      for (const SphereTransform& nodes : targets) {
-        values.emplace_back(Matrix::Zero(nodes.grid().n_points(), is_stokes(layer) ? 3 : 1));
+      for (const NodeImages& nodes : images) {
+        values.emplace_back(Matrix::Zero(nodes.n_originals(), is_stokes(layer) ? 3 : 1));
       }
     }
     std::vector<Matrix> by_exchange(n());
@@ -91,10 +157,15 @@ struct Interaction::Parts {
     }
     std::vector<Field> result(n());
     for_each_membrane([&](std::size_t a) {
-      result[a] = targets[a].analyze(values[a]);
+      result[a] = analyzed(a, values[a]);
       if (by_exchange[a].size() > 0) result[a] += by_exchange[a];
     });
     return result;
+  }
+
+  /// Coefficients on a membrane of values at the originals of its nodes.
+  [[nodiscard]] Matrix analyzed(std::size_t a, const Matrix& values) const {
+    return targets[a].analyze(images[a].at_all(values));
   }
 
   /// What each membrane of this rank does at the nodes near to it; empty of empty densities.
@@ -155,7 +226,7 @@ struct Interaction::Parts {
       if (from[b].size() == 0) continue;
       Index first = 0;
       for (const NearNodes& nodes : near.near[b]) {
-        const Index count = targets[nodes.at].grid().n_points();
+        const Index count = images[nodes.at].n_originals();
         const auto block = from[b].middleRows(first, count);
         for (const Use& use : nodes.uses) {
           if (use.source == b) {
@@ -163,7 +234,7 @@ struct Interaction::Parts {
             continue;
           }
           const ImageOfFields& image = exchange.image(use.source);
-          const Matrix there = targets[nodes.at].analyze(block);
+          const Matrix there = analyzed(nodes.at, block);
           body(use.target, true, there.cols() == 1 ? image.potential(there) : image.vector(there));
         }
         first += count;
@@ -211,7 +282,8 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
   std::vector<TargetNodes> nodes;
   for (const InteractingMembrane& membrane : membranes) {
     parts->targets.push_back(membrane.nodes);
-    nodes.push_back(target_nodes(membrane));
+    parts->images.emplace_back(membrane.nodes.grid(), membrane.symmetry);
+    nodes.push_back(parts->images.back().originals(target_nodes(membrane)));
   }
   if (membranes.size() > most_summed_membranes) {
     const auto timer = instruments.time("pair layers");

@@ -6,7 +6,7 @@
 
 #include "bie/physics/wall.hpp"
 #include "bie/potentials/pair_layers.hpp"
-#include "bie/sphere/exchange.hpp"
+#include "bie/sphere/symmetry.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/support/ranks/shares.hpp"
 
@@ -21,6 +21,7 @@ struct InteractingMembrane {
   const Matrix& position;        ///< coefficients, [n_coefficients x 3]
   const SphereTransform& nodes;  ///< degree p ↔ where the layers of the others are taken
   PairSelection selection;       ///< its own layers that the others need
+  Symmetry symmetry{};           ///< of all that is on it and about it: layers are found at one of the nodes it relates
 };
 
 /// Layers of every membrane on all others, as maps from the densities of all to coefficients on each: for membrane a

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/support/types.hpp"
+#include "bie/sphere/transform.hpp"
 
 namespace vehd {
 
@@ -29,8 +29,11 @@ struct WallGap {
   Vector3 place = Vector3::Zero();  ///< on the membrane
 };
 
+/// @param fine      degree p ↔ a finer grid, from whose lowest nodes the lowest point is sought
 /// @param position  coefficients of x, [n_coefficients x 3]
-/// Accuracy: that of top_of on a grid of twice the degree
+/// Accuracy: that of top_of on that grid
+WallGap nearest_to_wall(const Wall& wall, const SphereTransform& fine, const Matrix& position);
+/// The same from a grid of twice the degree.
 WallGap nearest_to_wall(const Wall& wall, const Matrix& position);
 
 }  // namespace vehd

@@ -70,7 +70,7 @@ void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough
 /// @returns whether any was too low
 bool Evolution::raise_orders_for(const StepAttempt& attempt, std::vector<bool>& raised) {
   if (!adapts()) return false;
-  const SmallestGap gap = find_smallest_gap(attempt.state, setup_.model.wall);
+  const SmallestGap gap = find_smallest_gap(attempt.state, discretisation_, setup_.model.wall);
   bool any = false;
   for (std::size_t a = 0; a < raised.size(); ++a) {
     if (raised[a] || setup_.symmetry.exchange.is_image(a) || order(a) >= setup_.settings.order) continue;

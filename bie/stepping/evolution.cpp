@@ -61,7 +61,7 @@ Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& sta
     start_at(orders, start);
     // The area, which is the scale, and V_m are known only now.
     resolved = true;
-    const SmallestGap gap = adapts() ? find_smallest_gap(state_, setup_.model.wall) : SmallestGap{};
+    const SmallestGap gap = adapts() ? find_smallest_gap(state_, discretisation_, setup_.model.wall) : SmallestGap{};
     for (std::size_t a = 0; a < orders.size(); ++a) {
       const Resolution found = resolution(state_, a);
       const int of_gap = order_of_gap(gap, a);
@@ -175,7 +175,7 @@ bool refine_quadrature(State& state, Discretisation& discretisation, const Evalu
 /// Makes this the state, with a quadrature that resolves it. @throws ConvergenceError, and the former state stays
 void Evolution::arrive(State state) {
   const bool has_moved = setup_.model.mobile || evaluation_.vesicles.empty();
-  const SmallestGap gap = has_moved ? find_smallest_gap(state, setup_.model.wall) : gap_;
+  const SmallestGap gap = has_moved ? find_smallest_gap(state, discretisation_, setup_.model.wall) : gap_;
   require_gap(gap, gap_, grid_spacing(state), setup_.frame, setup_.names);
   Discretisation discretisation = discretisation_;
   const auto evaluated = [&](const Evaluation* previous, Limit limit) {
@@ -212,7 +212,8 @@ std::vector<Evolution::Moment> Evolution::evaluated(const std::vector<State>& pa
         const State& state = passed[static_cast<std::size_t>(i)];
         Moment& moment = moments[static_cast<std::size_t>(i)];
         Evaluation evaluation = evaluate(setup_.model, discretisation_, state, instruments, &evaluation_);
-        moment = {state, without_operators(std::move(evaluation)), find_smallest_gap(state, setup_.model.wall)};
+        moment = {state, without_operators(std::move(evaluation)),
+                  find_smallest_gap(state, discretisation_, setup_.model.wall)};
         for (VesicleState& vesicle : moment.state.vesicles) vesicle.recycled = {};
       });
   return moments;

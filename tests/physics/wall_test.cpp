@@ -19,9 +19,9 @@ namespace {
 constexpr PairSelection kAllPairs{true, true, true, true, true, true};
 
 Interaction interaction_of(const Space& space, const std::vector<Matrix>& positions,
-                           const std::optional<Wall>& wall = {}) {
+                           const std::optional<Wall>& wall = {}, const Symmetry& symmetry = {}) {
   std::vector<InteractingMembrane> all;
-  for (const Matrix& position : positions) all.push_back({position, space.coarse, kAllPairs});
+  for (const Matrix& position : positions) all.push_back({position, space.coarse, kAllPairs, symmetry});
   Instruments instruments;
   return {all, {}, instruments, {}, {}, {}, wall};
 }
@@ -35,6 +35,38 @@ BOOST_AUTO_TEST_CASE(the_nearest_point_of_an_ellipsoid_is_found_between_nodes) {
   const Vector3 lowest = centre - axes.cwiseAbs2().cwiseProduct(wall.normal) / axes.cwiseProduct(wall.normal).norm();
   BOOST_TEST(std::abs(found.distance - wall.height(lowest)) < 1e-12);
   BOOST_TEST((found.place - lowest).norm() < 1e-7);
+}
+
+// Mirrors that leave the wall, turns about its normal, all turns.
+BOOST_AUTO_TEST_CASE(layers_at_nodes_that_symmetries_relate_follow_from_one_of_them) {
+  constexpr int kOrder = 8;
+  const Space space(kOrder);
+  const Symmetry mirrors{.reflections = {{}, {1, -1, 1}, {1, 1, -1}, {1, -1, -1}}, .potential_signs = {1, 1, -1, -1}};
+  const Symmetry turns{.fold = 3};
+  const Symmetry all_turns{
+      .axisymmetric = true, .reflections = {{}, {-1, 1, 1}, {1, -1, 1}, {-1, -1, 1}}, .potential_signs = {1, 1, 1, 1}};
+  for (const auto& [symmetry, normal, share] :
+       {std::tuple{mirrors, Vector3::UnitX().eval(), 0.3}, std::tuple{turns, Vector3::UnitZ().eval(), 0.34},
+        std::tuple{all_turns, Vector3::UnitZ().eval(), 0.07}}) {
+    const Wall wall{Vector3::Zero(), normal, WallFlow::no_slip, WallField::electrode};
+    const SymmetrySubspace subspace(symmetry, kOrder);
+    const Matrix position = at_gap(wall, subspace.symmetric_vector(asymmetric_shape(kOrder)), 0.1);
+    const std::vector<Matrix> vectors{subspace.symmetric_vector(smooth_coefficients(kOrder, 5, 3, 70))};
+    const std::vector<Vector> scalars{subspace.symmetric_potential(smooth_coefficients(kOrder, 5, 1, 71))};
+    const Interaction reduced = interaction_of(space, {position}, wall, symmetry),
+                      full = interaction_of(space, {position}, wall);
+    const auto n_targets = [](const Interaction& one) {
+      return static_cast<double>(one.counts().far + one.counts().near);
+    };
+    BOOST_TEST(n_targets(reduced) <= share * n_targets(full));
+    for (const auto layer : {&Interaction::weighted_single_flux, &Interaction::weighted_double_flux,
+                             &Interaction::single_potential, &Interaction::double_potential}) {
+      BOOST_TEST(relative_difference((reduced.*layer)(scalars)[0], (full.*layer)(scalars)[0]) < 1e-9);
+    }
+    for (const auto layer : {&Interaction::stokes_single, &Interaction::stokes_double}) {
+      BOOST_TEST(relative_difference((reduced.*layer)(vectors)[0], (full.*layer)(vectors)[0]) < 1e-9);
+    }
+  }
 }
 
 // Beside an insulating wall, an electrode and a stress-free wall all layers are those of two mirrored membranes.

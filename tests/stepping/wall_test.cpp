@@ -206,9 +206,10 @@ BOOST_AUTO_TEST_CASE(a_sinking_vesicle_keeps_its_symmetry) {
 
 BOOST_AUTO_TEST_CASE(a_vesicle_that_comes_too_near_to_a_wall_is_told) {
   const Wall wall = floor_without_slip();
+  const Discretisation discretisation({.order = 6});
   State state = at_rest(height_above(sphere(6), 1.5));
   state.vesicles[0].reference_area = 4.0 * std::numbers::pi;
-  const SmallestGap gap = find_smallest_gap(state, wall);
+  const SmallestGap gap = find_smallest_gap(state, discretisation, wall);
   BOOST_TEST(gap.to_wall);
   BOOST_TEST(std::abs(gap.distance - 0.5) < 1e-12);
   BOOST_TEST((gap.place - Vector3(0.0, 0.0, 0.25)).norm() < 1e-6);
@@ -216,7 +217,7 @@ BOOST_AUTO_TEST_CASE(a_vesicle_that_comes_too_near_to_a_wall_is_told) {
   state = at_rest(height_above(sphere(6), 1.0005));
   state.vesicles[0].reference_area = 4.0 * std::numbers::pi;
   BOOST_CHECK_EXCEPTION(
-      require_gap(find_smallest_gap(state, wall), gap, 0.1, Frame{}, {}), ConvergenceError,
+      require_gap(find_smallest_gap(state, discretisation, wall), gap, 0.1, Frame{}, {}), ConvergenceError,
       [](const ConvergenceError& error) {
         return std::string(error.what()) ==
                "the vesicle comes within 0.0005 radii of the wall at (0, 0, 0.00025); accepted: 0.001, "

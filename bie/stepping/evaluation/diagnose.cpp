@@ -280,7 +280,7 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
   add_poration(vesicle_model, fine, s, vesicle, solution, fields, d);
   add_by_place(vesicle_model, membrane, solution, fields, d);
   if (model.wall) {
-    d.gap_wall = nearest_to_wall(*model.wall, vesicle.position).distance;
+    d.gap_wall = nearest_to_wall(*model.wall, fine, vesicle.position).distance;
     d.force_wall = -model.wall->normal.dot(net_force(membrane, solution, fields));
   }
   if (previous != nullptr) {

@@ -78,7 +78,7 @@ std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>
       selection.stokes_single = flow.stokes_single;
       selection.stokes_double = flow.stokes_double;
     }
-    membranes.push_back({task.state.position, task.space.targets(), selection});
+    membranes.push_back({task.state.position, task.space.targets(), selection, task.space.subspace().symmetry()});
   }
   return std::make_shared<const Interaction>(membranes, pair_settings(tasks.front().settings), instruments,
                                              discretisation.shares(), discretisation.symmetry().exchange,

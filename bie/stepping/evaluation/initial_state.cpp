@@ -55,7 +55,8 @@ void find_steady_potentials(const Model& model, const Discretisation& discretisa
     frozen.push_back(membrane_at(space, position, layers, 1.0, instruments));
     frozen.back().material = material_at(space, state.vesicles[a].material);
     membranes.push_back({{electric_parameters(model, vesicle), frozen.back()}, vesicle.charging});
-    interacting.push_back({position, space.targets(), electric_pair_selection(membranes.back().in_field.electric)});
+    interacting.push_back({position, space.targets(), electric_pair_selection(membranes.back().in_field.electric),
+                           space.subspace().symmetry()});
     potentials.push_back(state.vesicles[a].transmembrane_potential);
   }
   const Interaction interaction =

@@ -33,10 +33,12 @@ double SmallestGap::degree() const {
   return relative > 0.0 ? thresholds::degrees_of_gap / std::sqrt(between_membranes) : 0.0;
 }
 
-SmallestGap find_smallest_gap(const State& state, const std::optional<Wall>& wall) {
+SmallestGap find_smallest_gap(const State& state, const Discretisation& discretisation,
+                              const std::optional<Wall>& wall) {
   SmallestGap smallest = between_vesicles(state);
   for (std::size_t a = 0; wall && a < state.vesicles.size(); ++a) {
-    const auto [distance, place] = nearest_to_wall(*wall, state.vesicles[a].position);
+    const auto [distance, place] =
+        nearest_to_wall(*wall, discretisation.vesicle(a).fine_transform(), state.vesicles[a].position);
     if (distance >= smallest.distance) continue;
     const double radius = radius_of(state.vesicles[a].reference_area);
     smallest = {distance, distance / radius, radius, a, a, place - 0.5 * distance * wall->normal, true};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/frame.hpp"
 
 namespace vehd {
@@ -25,8 +26,10 @@ struct SmallestGap {
 };
 
 /// Of all vesicles of a state, and of the wall beside them.
+/// @param discretisation  of the state
 /// Accuracy: that of nearest_points and nearest_to_wall
-SmallestGap find_smallest_gap(const State& state, const std::optional<Wall>& wall);
+SmallestGap find_smallest_gap(const State& state, const Discretisation& discretisation,
+                              const std::optional<Wall>& wall);
 
 /// A step that brings two vesicles, or one and a wall, into contact, or so near in one go that they could have passed
 /// through each other, is none. @throws ConvergenceError that says which two, where and how near

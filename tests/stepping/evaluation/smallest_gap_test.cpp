@@ -47,12 +47,12 @@ BOOST_AUTO_TEST_CASE(steps_that_jump_or_touch_are_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(the_gap_is_measured_by_the_smaller_vesicle) {
-  BOOST_TEST(find_smallest_gap(at_rest(sphere(6)), {}).degree() == 0.0);
+  BOOST_TEST(find_smallest_gap(at_rest(sphere(6)), Discretisation({.order = 6}), {}).degree() == 0.0);
   const std::vector<Matrix> spheres{sphere(6), translated(0.5 * sphere(6), {2.0, 0.0, 0.0})};
   State state = at_rest(spheres);
   state.vesicles[0].reference_area = 16.0 * std::numbers::pi / 4.0;
   state.vesicles[1].reference_area = std::numbers::pi;
-  const SmallestGap gap = find_smallest_gap(state, {});
+  const SmallestGap gap = find_smallest_gap(state, Discretisation({.order = 6}, {}, {2, ResolutionLevel{6}}), {});
   BOOST_TEST(std::abs(gap.distance - 0.5) < 1e-12);
   BOOST_TEST(std::abs(gap.relative - 1.0) < 1e-12);
   BOOST_TEST((gap.place - Vector3(1.25, 0.0, 0.0)).norm() < 1e-6);
