@@ -232,15 +232,38 @@ std::string surface_text(const XdmfSeries& series, const std::string& name, cons
   return text + "      </Grid>\n";
 }
 
+/// A square of the wall.
+std::string wall_text(const Matrix& corners) {
+  std::string numbers;
+  for (Index i = 0; i < corners.rows(); ++i) {
+    numbers += fmt::format(" {:.9g} {:.9g} {:.9g}", corners(i, 0), corners(i, 1), corners(i, 2));
+  }
+  return fmt::format(
+      "      <Grid Name=\"wall\" GridType=\"Uniform\">\n"
+      "        <Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"1\">\n"
+      "          <DataItem Format=\"XML\" NumberType=\"Int\" Dimensions=\"1 4\">0 1 2 3</DataItem>\n"
+      "        </Topology>\n"
+      "        <Geometry GeometryType=\"XYZ\">\n"
+      "          <DataItem Format=\"XML\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"4 3\">{}</DataItem>\n"
+      "        </Geometry>\n"
+      "      </Grid>\n",
+      numbers.substr(1));
+}
+
 std::string grid_text(const XdmfSeries& series, std::size_t number) {
   const std::string snapshot = snapshot_name(static_cast<std::int64_t>(number));
   const std::string time = fmt::format("        <Time Value=\"{:.17g}\"/>\n", series.times[number]);
-  if (series.n_vesicles == 1) return surface_text(series, "vesicle", time, snapshot);
-  std::string text = "      <Grid Name=\"vesicles\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" + time;
-  for (std::size_t a = 0; a < series.n_vesicles; ++a) {
+  const bool alone = series.n_vesicles == 1, beside_wall = !series.walls.empty();
+  if (alone && !beside_wall) return surface_text(series, "vesicle", time, snapshot);
+  std::string text = fmt::format("      <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n",
+                                 beside_wall ? "vesicles and wall" : "vesicles") +
+                     time;
+  if (alone) text += surface_text(series, "vesicle", "", snapshot);
+  for (std::size_t a = 0; a < series.n_vesicles && !alone; ++a) {
     const std::string own = vesicle_group(a);
     text += surface_text(series, "vesicle " + own, "", snapshot + "/vesicles/" + own);
   }
+  if (beside_wall) text += wall_text(series.walls[number]);
   return text + "      </Grid>\n";
 }
 

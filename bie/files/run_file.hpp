@@ -41,7 +41,7 @@ std::string vesicle_group(std::size_t vesicle);
 std::int64_t write_snapshot(Hdf5Writer& file, const std::string& name, const SphereTransform& transform,
                             const State& state, const Fields& fields, const SiUnits& si_units);
 
-/// Content of run.xdmf: the closed surfaces of every snapshot of a run.h5 beside it.
+/// Content of run.xdmf: the closed surfaces of every snapshot of a run.h5 beside it, and the wall.
 struct XdmfSeries {
   std::string heavy_data = "run.h5";
   Index n_points = 0;  ///< grid points and both poles
@@ -50,6 +50,7 @@ struct XdmfSeries {
   std::vector<std::string> vectors;
   std::vector<double> times;   ///< of snapshots 000000, 000001, ...
   std::size_t n_vesicles = 1;  ///< of each snapshot
+  std::vector<Matrix> walls;   ///< of each snapshot the corners of a square of the wall, [4 x 3]; empty without one
 };
 
 /// The XML text that ParaView opens.

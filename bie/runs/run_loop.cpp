@@ -9,6 +9,7 @@
 
 #include "bie/runs/resumption.hpp"
 #include "bie/runs/run_files.hpp"
+#include "bie/scene/model_of.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
@@ -76,7 +77,7 @@ RecordedRun::RecordedRun(const RunTask& task)
     if (!ranks_.is_first()) return;
     recorder_.emplace(task.paths, settings_of_files(task, simulation_.problem().settings), simulation_.problem().frame,
                       with_companion(simulation_.checkpoint(), error_bars_.get()), simulation_.units(),
-                      history_kind(task.scene), task.checkpoint_lag);
+                      history_kind(task.scene), model_of(task.scene).wall, task.checkpoint_lag);
   });
 }
 

@@ -1,5 +1,8 @@
 #include "bie/runs/run_recorder.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include "bie/files/run_file.hpp"
 #include "bie/runs/snapshot_copy.hpp"
 #include "bie/runs/vesicle_rows.hpp"
@@ -60,10 +63,34 @@ void name_fields(XdmfSeries& series, const Predicate& has) {
   }
 }
 
+/// A square of the wall about the foot of the vesicles, some radii beyond it.
+/// @param x  coefficients of each
+Matrix square_of(const Wall& wall, const std::vector<Matrix>& x, double radius) {
+  constexpr double radii_beyond = 5.0;
+  Matrix middles(std::ssize(x), 3);
+  for (Index a = 0; a < middles.rows(); ++a) {
+    middles.row(a) = x[static_cast<std::size_t>(a)].row(0) / std::sqrt(4.0 * std::numbers::pi);
+  }
+  const Eigen::RowVector3d middle = middles.colwise().mean();
+  const double half = radii_beyond * radius + (middles.rowwise() - middle).rowwise().norm().maxCoeff();
+  const Vector3 foot = middle.transpose() - wall.height(middle.transpose()) * wall.normal;
+  const Vector3 along = half * wall.normal.unitOrthogonal(), across = wall.normal.cross(along);
+  Matrix corners(4, 3);
+  corners << (foot + along + across).transpose(), (foot - along + across).transpose(),
+      (foot - along - across).transpose(), (foot + along - across).transpose();
+  return corners;
+}
+
+std::vector<Matrix> positions_of(const State& state) {
+  std::vector<Matrix> x;
+  for (const VesicleState& vesicle : state.vesicles) x.push_back(vesicle.position);
+  return x;
+}
+
 }  // namespace
 
 RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame,
-                         const Checkpoint& start, const OutputUnits& units, HistoryKind kind,
+                         const Checkpoint& start, const OutputUnits& units, HistoryKind kind, std::optional<Wall> wall,
                          std::chrono::milliseconds checkpoint_lag)
     : paths_(paths),
       si_units_(si_units_of(parse_units(start.scene, "scene"))),
@@ -73,6 +100,7 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
       snapshots_(paths.snapshots(), header_writer(output_, start, si_units_),
                  kept_snapshots(paths, output_, last_, si_units_)),
       history_(paths.history(), start.history_bytes, start.history_checksum, units, kind),
+      wall_(std::move(wall)),
       checkpoint_lag_(checkpoint_lag) {
   if (has_several(start)) {
     vesicles_.emplace(paths.vesicles(), start.vesicles_bytes, start.vesicles_checksum, units, of_each_like(kind));
@@ -86,7 +114,13 @@ RunRecorder::RunRecorder(const RunPaths& paths, const NumericalSettings& setting
   xdmf_.n_triangles = Index{2} * grid.n_theta * grid.n_phi;
   if (start.n_snapshots == 0) return;
   const RunReader run(paths.snapshots());
-  xdmf_.times.assign(run.times().begin(), run.times().begin() + start.n_snapshots);
+  for (std::size_t number = 0; number < static_cast<std::size_t>(start.n_snapshots); ++number) {
+    std::vector<Matrix> x;
+    for (std::size_t a = 0; wall_ && a < run.n_vesicles(); ++a) {
+      x.push_back(run.snapshot(number).coefficients("x", 3, a));
+    }
+    list_in_xdmf(run.times()[number], x);
+  }
   const std::string first = vesicle_groups(run.file(), "/snapshots/" + snapshot_name(0)).front();
   name_fields(xdmf_, [&](const std::string& name) { return run.file().has(first + "/" + name); });
 }
@@ -138,7 +172,9 @@ void RunRecorder::write_snapshots() {
     if (xdmf_.scalars.empty() && xdmf_.vectors.empty()) name_fields(xdmf_, has);
     return checksum;
   });
-  for (const Snapshot& written : waiting_) xdmf_.times.push_back(written.state.time);
+  for (const Snapshot& written : waiting_) {
+    list_in_xdmf(written.state.time, positions_of(lab_frame_.state(written.state)));
+  }
   waiting_.clear();
   snapshots_written_ = std::chrono::steady_clock::now();
   // Its length grows with the run, and checkpoints may ask for snapshots after every step.
@@ -157,6 +193,14 @@ void RunRecorder::save(const RunTotals& totals) {
   last_.totals = totals;
   write_checkpoint(paths_.checkpoint(), last_);
   saved_ = std::chrono::steady_clock::now();
+}
+
+void RunRecorder::list_in_xdmf(double time, const std::vector<Matrix>& x) {
+  xdmf_.times.push_back(time);
+  if (!wall_) return;
+  double area = 0.0;
+  for (const VesicleState& vesicle : last_.state.vesicles) area = std::max(area, vesicle.reference_area);
+  xdmf_.walls.push_back(square_of(*wall_, x, std::sqrt(area / (4.0 * std::numbers::pi))));
 }
 
 void RunRecorder::write_xdmf() {

@@ -31,9 +31,11 @@ class RunRecorder {
   /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
   /// @param units  of the history: where it goes on, those that it began with
   /// @param kind   of the history
+  /// @param wall   of the laboratory
   /// @param checkpoint_lag  by which the checkpoint may be behind the rows until the session ends
   RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start,
-              const OutputUnits& units, HistoryKind kind, std::chrono::milliseconds checkpoint_lag);
+              const OutputUnits& units, HistoryKind kind, std::optional<Wall> wall,
+              std::chrono::milliseconds checkpoint_lag);
 
   /// Records one accepted state: moments within its step, and then the state, which has two sides where the forcing
   /// jumps. Rows say themselves whether there is a snapshot of them. A kill leaves either none or all of the rows of a
@@ -59,6 +61,8 @@ class RunRecorder {
   void write_snapshots();
   void save(const RunTotals& totals);
   void write_xdmf();
+  /// Lists a snapshot. @param x  coefficients of every vesicle in the laboratory
+  void list_in_xdmf(double time, const std::vector<Matrix>& x);
 
   const RunPaths& paths_;
   SiUnits si_units_;
@@ -75,6 +79,7 @@ class RunRecorder {
   std::optional<HistoryFile> vesicles_;  ///< of each, where there are several
   std::optional<HistoryFile> errors_;    ///< of the history, where they are asked for
   XdmfSeries xdmf_;
+  std::optional<Wall> wall_;
   std::chrono::milliseconds checkpoint_lag_;
   std::optional<std::chrono::steady_clock::time_point> snapshots_written_, xdmf_written_, saved_;
 };

@@ -20,7 +20,8 @@ BOOST_AUTO_TEST_SUITE(xdmf, *boost::unit_test::label("once"))
 namespace {
 
 /// A run to time 1 with snapshots every 0.5.
-void viewer_sees(const std::string& scene, int n_vesicles) {
+/// @return  what it finds
+nlohmann::json viewer_sees(const std::string& scene, int n_vesicles) {
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml", scene);
   const ProgramResult run = run_vehd({"run", directory / "scene.toml", "-o", directory / "out", "--no-plot"});
@@ -43,6 +44,7 @@ void viewer_sees(const std::string& scene, int n_vesicles) {
   for (const char* field : {"Vm", "q", "tension", "velocity", "force_bending", "force_tension", "force_electric"}) {
     BOOST_TEST((std::find(fields.begin(), fields.end(), field) != fields.end()), field);
   }
+  return result;
 }
 
 }  // namespace
@@ -54,6 +56,19 @@ BOOST_AUTO_TEST_CASE(viewer_sees_a_closed_surface_with_its_fields) {
 BOOST_AUTO_TEST_CASE(viewer_sees_every_vesicle) {
   const std::string above = "[[vesicle]]\n[[vesicle]]\nshape.centre = [0, 0, 4]\n";
   if (can_render()) viewer_sees(quick_scene("1.0") + above, 2);
+}
+
+BOOST_AUTO_TEST_CASE(viewer_sees_the_wall_below_the_vesicle) {
+  if (!can_render()) return;
+  const nlohmann::json result =
+      viewer_sees(quick_scene("1.0") + "[wall]\npoint = [0, 0, -3]\nflow = \"no-slip\"\nfield = \"electrode\"\n", 1);
+  BOOST_TEST_REQUIRE(result.at("walls").size() == 1);
+  const auto& wall = result.at("walls")[0];
+  BOOST_TEST(wall.at("cells") == 1);
+  const auto bounds = wall.at("bounds").get<std::vector<double>>();
+  BOOST_TEST(bounds[0] < -5.0);
+  BOOST_TEST(bounds[1] > 5.0);
+  BOOST_TEST(std::max(std::abs(bounds[4] + 3.0), std::abs(bounds[5] + 3.0)) < 1e-6);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

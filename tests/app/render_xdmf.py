@@ -11,24 +11,47 @@ import sys
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the renderer
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkMassProperties
-from vtkmodules.vtkFiltersGeometry import vtkCompositeDataGeometryFilter, vtkGeometryFilter
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkFeatureEdges, vtkMassProperties
+from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
 
-def read_surface(path):
+def surface_of(block):
+    surface = vtkGeometryFilter()
+    surface.SetInputDataObject(block)
+    surface.Update()
+    return surface.GetOutput()
+
+
+def leaves_of(data):
+    if not data.IsA("vtkCompositeDataSet"):
+        return [data]
+    leaves, iterator = [], data.NewIterator()
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        leaves.append(iterator.GetCurrentDataObject())
+        iterator.GoToNextItem()
+    return leaves
+
+
+def read_surfaces(path):
+    """Times, all vesicles as one surface, and what has no fields: the wall."""
     reader = vtkXdmfReader()
     reader.SetFileName(path)
     reader.UpdateInformation()
     times = reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
     reader.UpdateTimeStep(times[-1])
     data = reader.GetOutputDataObject(0)
-    surface = vtkCompositeDataGeometryFilter() if data.IsA("vtkCompositeDataSet") else vtkGeometryFilter()
-    surface.SetInputDataObject(data)
-    surface.Update()
-    return times, surface.GetOutput()
+    vesicles, walls = vtkAppendPolyData(), []
+    for surface in map(surface_of, leaves_of(data)):
+        if surface.GetPointData().GetNumberOfArrays() > 0:
+            vesicles.AddInputData(surface)
+        else:
+            walls.append(surface)
+    vesicles.Update()
+    return times, vesicles.GetOutput(), walls
 
 
 def boundary_edges(surface):
@@ -89,13 +112,14 @@ def last_area(directory):
 
 def main():
     directory, picture = sys.argv[1:3]
-    times, surface = read_surface(directory + "/run.xdmf")
+    times, surface, walls = read_surfaces(directory + "/run.xdmf")
     area = last_area(directory)
     point_data = surface.GetPointData()
     pixels = render(surface, "Vm", picture)
     print(json.dumps({
         "times": list(times),
         "points": surface.GetNumberOfPoints(),
+        "walls": [{"cells": wall.GetNumberOfCells(), "bounds": list(wall.GetBounds())} for wall in walls],
         "boundary_edges": boundary_edges(surface),
         "area_ratio": triangulated_area(surface) / area,
         "fields": [point_data.GetArrayName(i) for i in range(point_data.GetNumberOfArrays())],
