@@ -125,6 +125,26 @@ BOOST_AUTO_TEST_CASE(report_of_a_run_in_si_is_in_its_units) {
   BOOST_TEST(units.at("charge density") == vehd::printed_unit(history.unit("q_north")));
 }
 
+BOOST_AUTO_TEST_CASE(wall_is_below_the_vesicle) {
+  const ReportedRun run(
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.2]\ncentre = [0.5, 0.0, 1.5]\n"
+      "[membrane]\nbending_modulus = 0.1\n[wall]\nnormal = [0, 0, 2]\nflow = \"no-slip\"\n"
+      "[numerics]\norder = 6\ndt = 0.1\nend_time = 0.1\n");
+  const nlohmann::json wall = data_of(file_text(run.page))["surface"]["wall"];
+  BOOST_TEST(wall["normal"] == nlohmann::json::parse("[0.0, 0.0, 1.0]"));
+  BOOST_TEST_REQUIRE(wall["heights"].size() == 2);
+  BOOST_TEST(std::abs(wall["heights"][0].get<double>() - 1.5) < 1e-5);
+  const std::string python = python_with("selenium");
+  if (!can_browse(python)) return;
+  const nlohmann::json shown = run.shown(python);
+  BOOST_TEST(shown["errors"].empty(), shown["errors"].dump());
+  // The square is four radii of the farthest point wide, and reaches down to the wall.
+  const double reach = data_of(file_text(run.page))["surface"]["radius"].get<double>();
+  const auto extents = shown["start"]["extents"].get<std::vector<double>>();
+  BOOST_TEST(std::abs(extents[0] / (4.0 * reach) - 1.0) < 1e-5);
+  BOOST_TEST(std::abs(extents[2] / (1.5 + 1.2) - 1.0) < 1e-2);
+}
+
 BOOST_AUTO_TEST_CASE(long_runs_are_thinned_out_with_their_first_and_last_snapshot) {
   const ReportedRun run(quick_scene());
   const std::string page = run.directory / "a folder/of its own/page.html";

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bie/files/run_reader.hpp"
+#include "bie/physics/wall.hpp"
 #include "bie/runs/history.hpp"
 #include "bie/scene/output_units.hpp"
 #include "bie/scene/scene.hpp"
@@ -25,10 +27,11 @@ std::vector<std::size_t> snapshots_for_page(const RunReader& run, std::size_t mo
 
 /// Shapes and fields at these snapshots: "times", "degrees", "position", "fields" (V_m, q, tension, those that the run
 /// has), "radius" of a ball that holds all shapes, "extents" along the axes. The position is relative to its mean over
-/// the parameter sphere.
+/// the parameter sphere. Beside a wall "wall": its "normal" and the "heights" of the origin above it.
 /// @param units  that the numbers are in
 /// @throws InputError if the run cannot be read
-nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>& snapshots, const OutputUnits& units);
+nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>& snapshots, const OutputUnits& units,
+                            const std::optional<Wall>& wall);
 
 /// Plots of a page: "panels" of up to four curves each, those that the effects of the scene and the columns of the
 /// history allow. A long history is thinned out so that no peak is lost; of one row there are no panels.

@@ -13,6 +13,7 @@
 #include "bie/pictures/plots.hpp"
 #include "bie/pictures/report/page_data.hpp"
 #include "bie/runs/run_files.hpp"
+#include "bie/scene/model_of.hpp"
 #include "bie/scene/output_units.hpp"
 #include "bie/support/file_system.hpp"
 #include "bie/support/progress.hpp"
@@ -121,7 +122,7 @@ ReportSize write_report(const ReportTask& task) {
                       {"groups", groups_data(scene)},
                       {"arrows", arrows_data(scene)},
                       {"history", history_data(history, scene)},
-                      {"surface", surface_data(run, snapshots, history.units(scene.units))},
+                      {"surface", surface_data(run, snapshots, history.units(scene.units), model_of(scene).wall)},
                       {"footer", fmt::format("Made by vehd {} from {}.", program_version(), run.name())}};
   data["palettes"] = {{"diverging", palette_of(ColourMap::diverging())},
                       {"sequential", palette_of(ColourMap::sequential())}};

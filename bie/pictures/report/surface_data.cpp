@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "bie/geometry/surface.hpp"
 #include "bie/pictures/colours.hpp"
@@ -75,7 +76,8 @@ std::vector<std::size_t> snapshots_for_page(const RunReader& run, std::size_t mo
   return spread_evenly(run.times().size(), std::max<std::size_t>(2, chosen.size() * most_surface_bytes / bytes));
 }
 
-nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>& snapshots, const OutputUnits& units) {
+nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>& snapshots, const OutputUnits& units,
+                            const std::optional<Wall>& wall) {
   nlohmann::json json;
   PackedCoefficients position;
   std::array<FieldOverTime, page_fields.size()> fields;
@@ -85,7 +87,12 @@ nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>
   for (std::size_t i = 0; i < page_fields.size(); ++i) field_units[i] = units.of(shape_field(page_fields[i]).dimension);
   for (const std::size_t number : snapshots) {
     const RunSnapshot snapshot = run.snapshot(number);
-    Matrix x = snapshot.coefficients("x", 3) * length.factor;
+    Matrix x = snapshot.coefficients("x", 3);
+    if (wall) {
+      const double height = wall->height(x.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi));
+      json["wall"]["heights"].push_back(rounded_for_page(height * length.factor));
+    }
+    x *= length.factor;
     // The only harmonic whose mean over the sphere is not zero.
     x.row(0).setZero();
     position.add(x);
@@ -104,6 +111,7 @@ nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>
       fields[i].add(snapshot.coefficients(dataset, 1) * field_units[i].factor, transform, surface.quadrature);
     }
   }
+  if (wall) json["wall"]["normal"] = rounded_list({wall->normal.begin(), wall->normal.end()});
   json["position"] = position.json();
   json["radius"] = rounded_for_page(radius);
   json["unit"] = printed_unit(length.symbol);

@@ -177,7 +177,10 @@ class Report {
     if (field >= 0) lattice.synthesize(this.values[field].at(snapshot)[0], values);
     const { range, palette } = this.colours(field, snapshot);
     this.viewer.setColours(palette);
-    return { positions, values, range, normals: lattice.normals(positions), triangles: this.triangles };
+    const mesh = { positions, values, range, normals: lattice.normals(positions), triangles: this.triangles };
+    const { wall, radius } = this.run.surface, farthest = 4;
+    const height = wall ? wall.heights[snapshot] : Infinity;
+    return height < farthest * radius ? withWall(mesh, wall.normal, height, 2 * radius) : mesh;
   }
 
   /** Range and colours of a field; symmetric about zero where it has both signs. */

@@ -20,6 +20,12 @@ varying vec3 seen;
 varying float shade;
 uniform sampler2D colours;
 void main() {
+  // A wall has no normals, and hides nothing from behind.
+  if (dot(seen, seen) < 0.25) {
+    if (!gl_FrontFacing) discard;
+    gl_FragColor = vec4(0.85, 0.85, 0.85, 1.0);
+    return;
+  }
   vec3 n = normalize(seen);
   vec3 base = texture2D(colours, vec2(clamp(shade, 0.002, 0.998), 0.5)).rgb;
   vec3 light = normalize(vec3(-0.45, 0.6, 0.85));
@@ -149,7 +155,7 @@ class Viewer {
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.uniformMatrix3fv(this.uniforms.rotation, false, [0, 1, 2].flatMap((c) => [right[c], up[c], eye[c]]));
-    gl.uniform3f(this.uniforms.scale, across, upward, 0.5 / this.radius);
+    gl.uniform3f(this.uniforms.scale, across, upward, 0.2 / this.radius);
     gl.uniform2f(this.uniforms.range, ...this.mesh.range);
     gl.drawElements(gl.TRIANGLES, this.mesh.triangles.length, gl.UNSIGNED_SHORT, 0);
   }
@@ -165,6 +171,29 @@ class Viewer {
     Object.assign(this, kept);
     return address;
   }
+}
+
+/**
+ * A mesh with a square of a wall, seen from the side of the fluid alone.
+ * @param height  of the origin above it
+ */
+function withWall(mesh, normal, height, half) {
+  const first = mesh.values.length, aside = cross(normal, Math.abs(normal[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]);
+  const along = aside.map((c) => half * c / Math.hypot(...aside)), across = cross(normal, along);
+  const corner = (a, b) => normal.map((c, k) => a * along[k] + b * across[k] - height * c);
+  const joined = (values, more) => {
+    const all = new values.constructor(values.length + more.length);
+    all.set(values);
+    all.set(more, values.length);
+    return all;
+  };
+  return {
+    range: mesh.range,
+    positions: joined(mesh.positions, [corner(1, 1), corner(-1, 1), corner(-1, -1), corner(1, -1)].flat()),
+    normals: joined(mesh.normals, Array(12).fill(0)),
+    values: joined(mesh.values, Array(4).fill(mesh.range[0])),
+    triangles: joined(mesh.triangles, [0, 1, 2, 0, 2, 3].map((i) => first + i)),
+  };
 }
 
 /** Where axes, field and flow point, and how long a length is, over the picture. */
