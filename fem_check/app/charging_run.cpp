@@ -52,6 +52,7 @@ Solved ChargingRun::solve(const Discretisation& space, const ChargingPlan& plan)
   PotentialProblem problem;
   problem.conductivity_in = input_.physics.conductivity_in;
   problem.conductivity_out = input_.physics.conductivity_out;
+  if (input_.wall) problem.wall = input_.wall->field;
   problem.tolerance = plan.settings.tolerance;
   problem.exterior_degree = plan.settings.exterior_degree;
   // The points at which the steps have V_m.

@@ -28,18 +28,36 @@ std::string electric_text(const std::string& field) {
          "\nconductivity_in = 2.0\nconductivity_out = 1.0\npermittivity_ratio = 0.5\ninitial_Vm = 'steady'\n";
 }
 
-/// Checks a scene; every row has to agree.
+/// Every row of a check has to agree. @param what  is checked
+void require_agreement_of(const std::vector<std::string>& what) {
+  const TemporaryDirectory directory;
+  std::vector<std::string> command{"check",     "-o",     directory / "check",      "--quick",
+                                   "--no-plot", "--json", directory / "result.json"};
+  command.insert(command.end(), what.begin(), what.end());
+  const ProgramResult checked = run_vehd(command);
+  BOOST_TEST_REQUIRE(checked.exit_code == 0, checked.output + checked.errors);
+  nlohmann::json result = json_of(directory / "result.json");
+  for (const char* group : {"fields", "from_shape", "stored", "in_time"}) {
+    for (const auto& [row, values] : result[group].items()) {
+      if (values.is_object()) BOOST_TEST(values["verdict"] == "agree", group << ": " << row);
+    }
+  }
+}
+
 void require_agreement(const std::string& scene) {
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml", scene);
-  const ProgramResult checked = run_vehd({"check", directory / "scene.toml", "-o", directory / "check", "--quick",
-                                          "--no-plot", "--json", directory / "result.json"});
-  BOOST_TEST_REQUIRE(checked.exit_code == 0, checked.output + checked.errors);
-  const nlohmann::json result = json_of(directory / "result.json");
-  for (const char* group : {"fields", "from_shape", "stored"}) {
-    for (const auto& [row, values] : result[group].items())
-      BOOST_TEST(values["verdict"] == "agree", group << ": " << row);
-  }
+  require_agreement_of({directory / "scene.toml"});
+}
+
+/// A run from 0 to 0.6 with snapshots every 0.2 beside an electrode. @param membrane  further keys
+std::string charging_text(const std::string& membrane) {
+  return "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
+         "centre = [0.0, 0.0, 1.5]\n[membrane]\ncapacitance = 1.0\nconductance = 0.5\n" +
+         membrane +
+         "[wall]\nnormal = [0.0, 0.0, 1.0]\nflow = 'no-slip'\nfield = 'electrode'\n"
+         "[electric]\nfield = [0.0, 0.0, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+         "[numerics]\norder = 8\ntime_order = 3\ndt = 0.1\nend_time = 0.6\n[output]\nevery = 0.2\n";
 }
 
 }  // namespace
@@ -55,6 +73,11 @@ BOOST_AUTO_TEST_CASE(every_row_agrees_below_a_free_surface_and_beside_an_electro
                     "[wall]\npoint = [0.0, 0.0, -0.2]\nnormal = [0.3, -0.2, 1.0]\nflow = 'stress-free'\n"
                     "field = 'electrode'\n" +
                     electric_text("[0.3, -0.2, 1.0]") + numerics_text);
+}
+
+BOOST_AUTO_TEST_CASE(potential_in_time_agrees_beside_an_electrode) {
+  const FinishedRun run(charging_text("mobile = false\n"));
+  require_agreement_of({run.output + "/run.h5", "--from", "0.2", "--time", "0.6"});
 }
 
 BOOST_AUTO_TEST_CASE(wall_elsewhere_or_of_the_other_kind_is_noticed) {
@@ -83,6 +106,10 @@ BOOST_AUTO_TEST_CASE(walls_that_the_elements_do_not_know_are_refused) {
   refused(vesicle_text + "[wall]\nnormal = [0.0, 0.0, 1.0]\nflow = 'no-slip'\n" + electric_text("[0.3, 0.5, 0.0]") +
               numerics_text,
           "has a wall that does not touch the field; vehd check accepts \"field\" insulating or electrode in [wall]");
+  const FinishedRun run(charging_text(""));
+  const ProgramResult moving = run_vehd({"check", run.output + "/run.h5", "--from", "0.2", "--quick"});
+  BOOST_TEST(moving.exit_code == 1);
+  BOOST_TEST(moving.errors.find("moves beside a wall between --from and --time") != std::string::npos, moving.errors);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
