@@ -61,7 +61,9 @@ BOOST_AUTO_TEST_CASE(viewer_sees_every_vesicle) {
 BOOST_AUTO_TEST_CASE(viewer_sees_the_wall_below_the_vesicle) {
   if (!can_render()) return;
   const nlohmann::json result =
-      viewer_sees(quick_scene("1.0") + "[wall]\npoint = [0, 0, -3]\nflow = \"no-slip\"\nfield = \"electrode\"\n", 1);
+      viewer_sees(quick_scene("1.0") +
+                      "[wall]\npoint = [0, 0, -3]\nnormal = [0, 0, 1]\nflow = \"no-slip\"\nfield = \"electrode\"\n",
+                  1);
   BOOST_TEST_REQUIRE(result.at("walls").size() == 1);
   const auto& wall = result.at("walls")[0];
   BOOST_TEST(wall.at("cells") == 1);
