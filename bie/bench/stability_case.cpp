@@ -29,47 +29,33 @@ std::string criterion_text(const std::filesystem::path& path) {
 
 class Criterion {
  public:
-  explicit Criterion(const std::filesystem::path& path) : file_(path.string()) {
-    try {
-      table_ = toml::parse(criterion_text(path), file_);
-    } catch (const toml::parse_error& error) {
-      throw InputError(fmt::format("{}:{}: {}", file_, error.source().begin.line, error.description()));
-    }
-    for (const auto& [key, node] : table_) {
+  explicit Criterion(const std::filesystem::path& path) : file_(parse_toml(criterion_text(path), path.string())) {
+    for (const auto& [key, node] : file_.table) {
       static constexpr std::array keys = {"family", "expect", "short_end_time", "most", "falls", "steady"};
-      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
-        refuse(node, fmt::format("unknown key \"{}\"; accepted: {}", key.str(), fmt::join(keys, ", ")));
-      }
+      if (std::ranges::find(keys, key.str()) != keys.end()) continue;
+      file_.refuse(node, "unknown key \"{}\"; accepted: {}", key.str(), fmt::join(keys, ", "));
     }
   }
 
-  [[nodiscard]] std::string text(const char* key) const {
-    const toml::value<std::string>* value = required(key, "a text").as_string();
-    if (value == nullptr) refuse_value(key, *table_.get(key), "a text");
-    return value->get();
-  }
+  [[nodiscard]] std::string text(const char* key) const { return text(key, required(key, "a text"), "a text"); }
   [[nodiscard]] double number(const char* key) const { return number(key, required(key, "a number")); }
   [[nodiscard]] std::vector<ColumnBound> bounds(const char* key) const {
     std::vector<ColumnBound> result;
-    const toml::node* node = table_.get(key);
+    const toml::node* node = file_.table.get(key);
     if (node == nullptr) return result;
     const toml::table* table = node->as_table();
-    if (table == nullptr) refuse_value(key, *node, "a table of columns and their bounds");
+    if (table == nullptr) refuse(key, *node, "a table of columns and their bounds");
     for (const auto& [column, bound] : *table) result.push_back({std::string(column), number(column, bound)});
     return result;
   }
   [[nodiscard]] std::vector<std::string> names(const char* key) const {
     constexpr const char* accepted = "a list of columns in quotes";
     std::vector<std::string> result;
-    const toml::node* node = table_.get(key);
+    const toml::node* node = file_.table.get(key);
     if (node == nullptr) return result;
     const toml::array* array = node->as_array();
-    if (array == nullptr) refuse_value(key, *node, accepted);
-    for (const toml::node& entry : *array) {
-      const toml::value<std::string>* name = entry.as_string();
-      if (name == nullptr) refuse_value(key, entry, accepted);
-      result.push_back(name->get());
-    }
+    if (array == nullptr) refuse(key, *node, accepted);
+    for (const toml::node& entry : *array) result.push_back(text(key, entry, accepted));
     return result;
   }
   [[nodiscard]] ExpectedEnd expected_end() const {
@@ -77,29 +63,32 @@ class Criterion {
     if (word == "completed") return ExpectedEnd::completed;
     if (word == "flagged") return ExpectedEnd::flagged;
     if (word == "stops") return ExpectedEnd::stops;
-    refuse(*table_.get("expect"), fmt::format("\"{}\"; accepted: completed, flagged, stops", word));
+    file_.refuse(*file_.table.get("expect"), "\"{}\"; accepted: completed, flagged, stops", word);
   }
 
  private:
-  [[noreturn]] void refuse(const toml::node& node, const std::string& what) const {
-    throw InputError(fmt::format("{}: {}", place(node, file_), what));
-  }
-  [[noreturn]] void refuse_value(std::string_view key, const toml::node& node, const char* accepted) const {
-    refuse(node, fmt::format("\"{}\" is {}; accepted: {}", key, shown(node), accepted));
+  [[noreturn]] void refuse(std::string_view key, const toml::node& node, const char* accepted) const {
+    file_.refuse(node, "\"{}\" is {}; accepted: {}", key, shown(node), accepted);
   }
   [[nodiscard]] const toml::node& required(const char* key, const char* type) const {
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) throw InputError(fmt::format("{}: the criterion lacks {} \"{}\"", file_, type, key));
+    const toml::node* node = file_.table.get(key);
+    if (node == nullptr) {
+      throw InputError(fmt::format("{}: the criterion lacks {} \"{}\"", file_.name, type, key));
+    }
     return *node;
+  }
+  [[nodiscard]] std::string text(std::string_view key, const toml::node& node, const char* accepted) const {
+    const toml::value<std::string>* value = node.as_string();
+    if (value == nullptr) refuse(key, node, accepted);
+    return value->get();
   }
   [[nodiscard]] double number(std::string_view key, const toml::node& node) const {
     const std::optional<double> value = number_of(node);
-    if (!value || !std::isfinite(*value)) refuse_value(key, node, "a finite number");
+    if (!value || !std::isfinite(*value)) refuse(key, node, "a finite number");
     return *value;
   }
 
-  std::string file_;
-  toml::table table_;
+  TomlFile file_;
 };
 
 }  // namespace
