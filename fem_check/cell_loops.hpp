@@ -19,7 +19,7 @@ using CellRange = std::pair<unsigned, unsigned>;
 /// Gauss points per direction and cell of every integral of elements of a degree.
 constexpr int points_per_direction(int degree) { return degree + 2; }
 
-/// The same of forms that only precondition: as many as nodes.
+/// Gauss points per direction and cell of forms that only precondition: as many as nodes.
 constexpr int preconditioner_points_per_direction(int degree) { return degree + 1; }
 
 /// A finite-element space of the loops.

@@ -2,16 +2,16 @@
 
 #include "fem_check/surface_terms.hpp"
 
-/// What fields that decay outside a sphere do to it, exactly for spherical harmonics of low degree: the operators from
-/// their values there to ∂u/∂r of a potential and to −p n + μ ∂u/∂r of a flow. docs/weak_forms.md#outer-sphere
+/// Conditions on a sphere for fields that decay outside it, exact for spherical harmonics of low degree: the operators
+/// from values there to ∂u/∂r of a potential and to −p n + μ ∂u/∂r of a flow. docs/weak_forms.md#outer-sphere
 namespace vehd::fem_check {
 
 /// (l + 1) − robin for every harmonic of degree l, which decays as r^(−l−1); a matrix on coefficients of harmonics up
 /// to this degree. Lengths in units of R.
 Eigen::MatrixXd exterior_potential(int degree, double robin);
 
-/// The same of a flow over μ, a matrix on coefficients of the three components up to one degree more. Velocities on the
-/// sphere are sums of ∇(r^l Y), r̂ × ∇Y and ∇(r^(−l−1) Y) at r = 1, l ≥ 1; outside these decay as r^(−l) with a
+/// The condition of a flow over μ, a matrix on coefficients of the three components up to one degree more. Velocities
+/// on the sphere are sums of ∇(r^l Y), r̂ × ∇Y and ∇(r^(−l−1) Y) at r = 1, l ≥ 1; outside these decay as r^(−l) with a
 /// pressure, r^(−l−1) and r^(−l−2), for which −p n + μ ∂u/∂r is −3l²/(l + 1), −(l + 1) and −(l + 2) times μ u. l = 1
 /// has the Stokeslet and the rotlet, l = 2 the stresslet.
 Eigen::MatrixXd exterior_flow(int degree, double robin);

@@ -8,8 +8,8 @@
 
 namespace vehd::fem_check {
 
-/// What holds at the wall, where the mesh has one: the disturbance v − A x rests there, or it goes along it and exerts
-/// no stress along it.
+/// Condition at the wall, if the mesh has one: the disturbance v − A x vanishes there, or it is tangential without
+/// tangential stress.
 enum class WallFlow { no_slip, stress_free };
 
 /// Stokes flow −∇p + μΔv = 0 on both sides of γ, all membranes of the mesh, v continuous, v → A x far away. Velocities
@@ -75,7 +75,7 @@ class FlowSolution {
 /// Source: weak form in docs/weak_forms.md; Taylor–Hood elements
 FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem,
                         const FlowSolution* start = nullptr);
-/// The same with operators at hand.
+/// Solves with given operators.
 /// @throws std::invalid_argument also for a problem with other viscosities or another wall
 FlowSolution solve_flow(const FlowOperators& operators, const FlowProblem& problem,
                         const FlowSolution* start = nullptr);

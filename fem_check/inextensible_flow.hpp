@@ -27,7 +27,7 @@ class InextensibleFlow {
   std::shared_ptr<const Data> data_;
 };
 
-/// What is added to FlowOperators where a membrane keeps its area elements. Immutable.
+/// Operators added to FlowOperators for a membrane that keeps its area elements. Immutable.
 class InextensibleOperators {
  public:
   struct Data;
@@ -54,7 +54,7 @@ class InextensibleOperators {
 /// Source: paper Eqs. (1e), (2); weak form and stability in docs/weak_forms.md
 InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem,
                                          const InextensibleFlow* start = nullptr);
-/// The same with operators at hand.
+/// Solves with given operators.
 /// @throws std::invalid_argument also for a problem with other viscosities
 InextensibleFlow solve_inextensible_flow(const InextensibleOperators& operators, const FlowProblem& problem,
                                          const InextensibleFlow* start = nullptr);

@@ -3,7 +3,7 @@
 #include "fem_check/potential.hpp"
 #include "fem_check/stiffness.hpp"
 
-/// What the condition at the membrane means for the equations of a potential.
+/// Terms of the membrane's condition in the equations of a potential.
 namespace vehd::fem_check {
 
 /// @throws std::invalid_argument naming what is out of range

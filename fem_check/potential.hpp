@@ -37,10 +37,10 @@ struct ChargingMembrane {
   ScalarOnSurface initial;  ///< V_m before the first step
 };
 
-/// What holds at the membrane.
+/// Condition at the membrane.
 using MembraneCondition = std::variant<PrescribedJump, SteadyMembrane, ChargedMembrane, ChargingMembrane>;
 
-/// What holds at the outer sphere for the disturbance ψ = φ + E_∞·x.
+/// Condition at the outer sphere for the disturbance ψ = φ + E_∞·x.
 struct OuterCondition {
   /// Which condition holds.
   enum class Kind {
@@ -52,7 +52,7 @@ struct OuterCondition {
   std::function<double(const Vector3&)> value;  ///< absent: zero
 };
 
-/// What holds at the wall, where the mesh has one: no current through it, or ψ = 0. φ itself is constant there if E_∞
+/// Condition at the wall, if the mesh has one: no current through it, or ψ = 0. φ itself is constant there if E_∞
 /// is normal to it.
 enum class WallField { insulating, electrode };
 

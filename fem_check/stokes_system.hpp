@@ -61,7 +61,7 @@ class StokesSystem {
   [[nodiscard]] const std::shared_ptr<const dealii::DoFHandler<3>>& pressure_dofs() const;
   /// Ties of the two sheets, and where they are added up.
   [[nodiscard]] const Stiffness& diffusion() const;
-  /// What the functional of a force is divided by, μ_e R.
+  /// Scale of the functional of a force, μ_e R.
   [[nodiscard]] double functional_unit() const;
   /// Of the block of the pressure, μ_e/R.
   [[nodiscard]] double pressure_unit() const;

@@ -51,7 +51,7 @@ class OuterSphere {
   Eigen::SparseMatrix<double> mass_;
 };
 
-/// What two components of a field have to do with one another: the matrix C in the rows of the first and columns of the
+/// Coupling of two components of a field: the matrix C in the rows of the first and columns of the
 /// second, Cᵀ in those of the second and first.
 struct ComponentCoupling {
   unsigned first, second;

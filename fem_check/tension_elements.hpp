@@ -69,7 +69,7 @@ class TensionPreconditioner {
   TensionPreconditioner(const TensionElements& elements, double viscosity_in, double viscosity_out,
                         bool constant_is_free, InverseRoot::Share share);
 
-  /// What this share adds to the result.
+  /// This share's term of the result.
   /// @param residual  products with the functions of the tension
   [[nodiscard]] Vector apply(const Vector& residual) const;
 

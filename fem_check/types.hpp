@@ -69,7 +69,7 @@ using VectorOnSurface = std::function<Vectors(const SurfacePoints&)>;
 /// left of the next one returns to a membrane that reaches out to a as (a/R)^17 of it, R the radius of the sphere.
 constexpr int usual_exterior_degree = 8;
 
-/// What a solution took. Peak memory is that of the process up to its end, on this rank.
+/// Cost of a solution. Peak memory is that of the process up to its end, on this rank.
 struct Cost {
   int n_cells = 0;
   long n_unknowns = 0;

@@ -30,11 +30,11 @@ BlockAxes best_axes(const FrozenShape& shape);
 /// several shapes.
 BlockAxes axes_along(const FrozenShape& shape, const Matrix3& in_directions);
 
-/// What polynomials of degree 5 cannot follow of x(θ, φ) on the faces of a mesh with 3 cells per edge of the cube: root
+/// Error of polynomials of degree 5 for x(θ, φ) on the faces of a mesh with 3 cells per edge of the cube: root
 /// mean square over these faces of the part of x of degree 6 in a face coordinate.
 double truncation_error(const FrozenShape& shape, const Matrix3& in_directions);
 
-/// The same of the unit normal, with any number of cells per edge: where a shape is strongly bent, its normal turns
+/// Error for the unit normal, with any number of cells per edge: where a shape is strongly bent, its normal turns
 /// within a small part of a face, however smooth x(θ, φ) is.
 double normal_truncation_error(const FrozenShape& shape, const Matrix3& in_directions, int cells_per_edge);
 

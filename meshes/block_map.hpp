@@ -44,7 +44,7 @@ class BlockMap {
   [[nodiscard]] virtual Matrix3 derivative(const Block& block, const Point& reference) const = 0;
 
  protected:
-  /// What the formulas of a block share: s, v = X/s and g.
+  /// Quantities common to the formulas of a block: s, v = X/s and g.
   struct CubePoint {
     double s;
     Point v;

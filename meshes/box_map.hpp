@@ -78,7 +78,7 @@ class BoxMap {
   [[nodiscard]] SurfacePoint on_sphere(const SurfacePoint& on_box) const;
   [[nodiscard]] Point place(const BoxBlock& block, const Point& at, const Point& on_membrane) const;
 
-  /// What belongs to one vesicle.
+  /// Data of one vesicle.
   struct Box {
     FrozenShape shape;
     Matrix3 to_direction;  // A

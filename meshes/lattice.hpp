@@ -22,7 +22,7 @@ struct BlockPlace {
 /// one layer of shell blocks.
 class Lattice {
  public:
-  /// What a node lies on.
+  /// Entity on which a node lies.
   enum class Boundary { none, membrane, outer };
   struct Node {
     BlockPlace place;  ///< in one of its cells

@@ -12,7 +12,7 @@ namespace vehd::meshes {
 enum class CellShape { hexahedron, tetrahedron };
 /// Side of the membrane that a cell lies on.
 enum class Region { inside = 0, outside = 1 };
-/// What a face of a cell lies on.
+/// Surface on which a face of a cell lies.
 enum class FaceKind { interior, membrane, outer_sphere, wall };
 
 /// Hexahedron: vertex v has the unit coordinates (v & 1, v >> 1 & 1, v >> 2 & 1); faces x = 0, x = 1, y = 0, y = 1,

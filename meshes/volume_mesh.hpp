@@ -37,7 +37,7 @@ class VolumeMesh {
 
   /// Position in space of a point of the unit cell.
   [[nodiscard]] virtual Point physical(int cell, const Point& unit) const = 0;
-  /// The same for many points of one cell, several times faster per point.
+  /// Many points of one cell, several times faster per point.
   [[nodiscard]] virtual std::vector<Point> physical_points(int cell, const std::vector<Point>& units) const = 0;
   /// Derivative of physical() with respect to the unit coordinates: column j belongs to coordinate j.
   [[nodiscard]] virtual Matrix3 jacobian(int cell, const Point& unit) const = 0;

@@ -13,7 +13,7 @@
 
 namespace vehd::fem_check {
 
-/// What is compared, and where the files go.
+/// Fields to compare, and the folder of the files.
 struct CheckTask {
   std::filesystem::path input;
   std::filesystem::path directory;                      ///< for the files of fields
@@ -24,7 +24,7 @@ struct CheckTask {
   bool writes = true;                                   ///< false on all ranks but the last, which has no other work
 };
 
-/// What the finite elements find for one state: everything that boundary-integral numbers are compared with.
+/// Results of the finite elements for one state, with which boundary-integral numbers are compared.
 struct SolvedState {
   ComparisonPlaces places;  ///< radius and centre are those of the first vesicle
   std::optional<PotentialLevels> potential;

@@ -9,7 +9,7 @@
 #include "fem_check/potential.hpp"
 #include "meshes/wall.hpp"
 
-/// What the boundary-integral side hands over, docs/check.md. Fields on γ are spherical-harmonic coefficients,
+/// Input from the boundary-integral side, docs/check.md. Fields on γ are spherical-harmonic coefficients,
 /// [n_coefficients x components]; an empty one is absent.
 namespace vehd::fem_check {
 
@@ -120,7 +120,7 @@ std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path);
 /// The scene or run that a file was made from; its own name where it does not say. @throws InputError
 std::string source_of(const std::filesystem::path& path);
 
-/// What is meshed.
+/// Shapes to be meshed.
 struct InputShapes {
   std::vector<Eigen::MatrixXd> positions;  ///< coefficients of x, of each vesicle
   std::optional<meshes::Wall> wall;

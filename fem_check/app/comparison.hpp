@@ -15,7 +15,7 @@ struct Norms {
   double max = 0.0;
 };
 
-/// What a comparison says.
+/// Verdict of a comparison.
 enum class Verdict {
   agree,     ///< the difference is within the errors, and both errors are as small as required
   disagree,  ///< the difference is larger than both errors together
@@ -25,7 +25,7 @@ enum class Verdict {
 /// "agree", "disagree", "undecided".
 const char* name_of(Verdict verdict);
 
-/// What a number is judged by.
+/// Reference of a comparison.
 enum class Judge {
   elements,            ///< the finite elements
   boundary_integrals,  ///< what boundary integrals find anew: no element has a part in it
@@ -77,7 +77,7 @@ struct Degrees {
   std::optional<double> decay;
 };
 
-/// What is compared with what: values at points, [components x points].
+/// Values that are compared, at points, [components x points].
 struct FieldQuestion {
   std::string name;
   std::string label;
@@ -114,7 +114,7 @@ struct Convergence {
 /// points.
 std::optional<Convergence> convergence_of(const LevelSequence& sequence, const std::string& field);
 
-/// What is asked of both methods.
+/// Requirements on both methods.
 struct Requirement {
   double error = 0.0;             ///< share of the field that each error may reach for both to agree
   double solver_tolerance = 0.0;  ///< at which the solvers of the run stop

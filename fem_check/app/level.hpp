@@ -33,7 +33,7 @@ struct Level {
   FieldValues samples;
 };
 
-/// What is solved with beside the elements.
+/// Settings of a solve besides the elements.
 struct SolveSettings {
   double tolerance;  ///< of the linear solvers
   int exterior_degree = usual_exterior_degree;

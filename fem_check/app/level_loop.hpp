@@ -19,7 +19,7 @@ struct LevelPlan {
   std::vector<std::string> judged_by;  ///< surface fields whose change from level to level decides
 };
 
-/// What one level's solution gives.
+/// Results of one level.
 struct Solved {
   Cost cost;
   FieldValues surface, samples;
@@ -38,7 +38,7 @@ Level solve_level(const std::string& problem, const Discretisation& discretisati
 /// tolerance, from zero. `solve` is called for the levels first, then for these two.
 LevelSequence run_levels(const LevelPlan& plan, Meshes& meshes, const Report& report, const SolveLevel& solve);
 
-/// What the linear solvers begin from: the last solution, if there is one.
+/// Start of the linear solvers: the last solution, if there is one.
 template <typename Solution>
 const Solution* start_of(const std::vector<Solution>& before, const SolveSettings& settings) {
   return before.empty() || settings.from_zero ? nullptr : &before.back();

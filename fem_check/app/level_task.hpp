@@ -17,7 +17,7 @@ struct LevelTask {
   double outer_radius = 8.0;  ///< over the radius of the shape
 };
 
-/// What a level costs.
+/// Cost of a level.
 struct LevelCost {
   int degree = 0, n_cells = 0;
   long n_unknowns = 0;

@@ -18,7 +18,7 @@ struct PointSources {
   double conductivity_in = 1.0, conductivity_out = 1.0;
 };
 
-/// What a level costs, and its errors.
+/// Cost and errors of a level.
 struct PointSourceResult {
   LevelCost cost;
   FieldError charge, force;

@@ -20,7 +20,7 @@ struct PotentialLevels {
   std::optional<PotentialSolution> steady;   ///< of the finest level, membrane law
 };
 
-/// What the finest f_E leaves out, over its change from the level before.
+/// Remaining error of the finest f_E, over its change from the level before.
 double tail_of_force(const PotentialLevels& potential);
 
 /// V_m given; with displacement currents the free charge of both faces, from which V_m follows.

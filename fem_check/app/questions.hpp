@@ -16,8 +16,8 @@ std::vector<FieldQuestion> electric_questions(const CheckInput& input, const Com
 std::vector<FieldQuestion> flow_questions(const CheckInput& input, const ComparisonPlaces& places,
                                           const LevelSequence& sequence);
 
-/// What follows from the shape, V_m and the physics alone: f_b, tension and velocity, the last without the background
-/// flow; those that the elements have.
+/// Fields that follow from the shape, V_m and the physics alone: f_b, tension and velocity, the last without the
+/// background flow; those that the elements have.
 /// @param of_shape  a level of them
 std::vector<FieldQuestion> shape_questions(const CheckInput& input, const ComparisonPlaces& places,
                                            const Level& of_shape);

@@ -26,7 +26,7 @@ struct InTimeResult {
 /// Share of a field that the error of either method may reach for both to agree, unless asked for another.
 constexpr double default_requirement = 0.02;
 
-/// What a check found. Of several vesicles each has a result of its own, and the whole has no rows itself.
+/// Result of a check. Of several vesicles each has a result of its own, and the whole has no rows itself.
 struct CheckResult {
   std::string source;
   std::string name;  ///< of the vesicle; empty where there is only one

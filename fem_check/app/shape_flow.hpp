@@ -6,7 +6,7 @@
 
 namespace vehd::fem_check {
 
-/// What finding the flow from the shape costs, and how far its fields are from those of the boundary integrals.
+/// Cost of the flow from the shape, and the differences of its fields from those of the boundary integrals.
 struct ShapeFlowResult {
   LevelCost cost;
   FieldError velocity;  ///< v without the background flow
