@@ -16,7 +16,7 @@ struct MirroredTarget {
   double height;   ///< of the target above the plane, which X is as far beyond
 };
 
-/// Of a point force f, prefactor that of the Stokes single layer:
+/// Image of a point force f, prefactor that of the Stokes single layer:
 ///   −(1/s + 2zh/s³) f + [(6zh/s⁵ − 1/s³) s·f − 2z n·f/s³] s + [2 n·f/s − 2h s·f/s³] n.
 /// Accuracy: rounding; Blake's tensor and zero velocity on the plane to 1e-12 (tests/potentials/no_slip_test.cpp)
 /// Source: Blake 1971
@@ -35,8 +35,8 @@ std::array<Real, 3> no_slip_flow(const MirroredTarget& target, const Real& sx, c
           of_f * fz + of_s * sz + of_n * n[2]};
 }
 
-/// Of the kernel of the Stokes double layer for a velocity v, prefactor that of the layer. With a normal or area vector
-/// a at the source and Q = (v aᵀ + a vᵀ)/2 it is
+/// Image of the kernel of the Stokes double layer for a velocity v, prefactor that of the layer. With a normal or area
+/// vector a at the source and Q = (v aᵀ + a vᵀ)/2 it is
 ///   −4zh Qs/s⁵ + [(10zh/s² − 1) s·Qs + 2z² tr Q] s/s⁵ − 2h s·Qs n/s⁵,
 /// which like the free kernel is zero outside a closed surface for a constant v.
 /// Accuracy: rounding (tests/potentials/no_slip_test.cpp)

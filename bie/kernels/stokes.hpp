@@ -27,7 +27,8 @@ std::array<Real, 6> stokeslet(const Real& rx, const Real& ry, const Real& rz, co
           inverse_r + ry * ry * inverse_r3, ry * rz * inverse_r3, inverse_r + rz * rz * inverse_r3};
 }
 
-/// The same times a force, f/|r| + r r·f/|r|³, in half the operations.
+/// The Stokeslet times a force, f/|r| + r r·f/|r|³, in half the operations.
+/// Source: paper Eq. (6)
 template <class Real>
 std::array<Real, 3> stokeslet_flow(const Real& rx, const Real& ry, const Real& rz, const Real& inverse_r,
                                    const Real& fx, const Real& fy, const Real& fz) {
@@ -61,7 +62,8 @@ std::array<Real, 6> stokes_double_kernel(const Real& rx, const Real& ry, const R
   return {x * rx, x * ry, x * rz, y * ry, y * rz, z * rz};
 }
 
-/// The same times a velocity: r r·v r·n(y)/|r|⁵.
+/// stokes_double_kernel times a velocity: r r·v r·n(y)/|r|⁵.
+/// Source: Pozrikidis 1992
 template <class Real>
 std::array<Real, 3> stokes_double_flow(const Real& rx, const Real& ry, const Real& rz, const Real& r_dot_source_normal,
                                        const Real& inverse_r, const Real& vx, const Real& vy, const Real& vz) {

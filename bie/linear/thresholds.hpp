@@ -6,7 +6,7 @@
 /// (docs/thresholds.md).
 namespace vehd::thresholds {
 
-/// What the sums of a map and its preconditioner lose, relative to what they take and give: the layers sum a few
+/// Rounding of the sums of a map and its preconditioner, relative to their arguments and results: the layers sum a few
 /// thousand products, and errors of either sign add up like their square root, times 2e-16.
 constexpr double map_rounding = 1e-14;
 

@@ -22,7 +22,7 @@ ComplexConductivities complex_conductivities(const ElectricParameters& electric)
 /// y = G_m + iωC_m of a membrane at this frequency.
 std::complex<double> membrane_admittance(const ChargingParameters& charging, double frequency);
 
-/// What a field E cos ωt makes of one membrane after all transients. A complex amplitude z stands for Re(z e^{iωt});
+/// Fields of one membrane in a field E cos ωt after all transients. A complex amplitude z stands for Re(z e^{iωt});
 /// its real and imaginary parts are columns.
 struct AveragedField {
   Matrix potential;  ///< V_m, coefficients, [n_coefficients x 2]
@@ -30,7 +30,7 @@ struct AveragedField {
   Matrix force;      ///< f_E, mean over a period, on the upsampled grid, [n_points x 3]
 };
 
-/// Those of several membranes; of membranes of other ranks, see Interaction, they are empty.
+/// Fields of several membranes; empty for membranes of other ranks, see Interaction.
 struct AveragedFields {
   std::vector<AveragedField> membranes;
   SolveReport report;

@@ -71,7 +71,7 @@ class Interaction {
     shares().gather(fields,
                     [this](const Field& f, std::size_t a) -> Field { return exchange().image(a).potential(f); });
   }
-  /// The same of vectors, [n_coefficients x 3]. Collective.
+  /// Gathers vectors, [n_coefficients x 3]. Collective.
   void gather_vectors(std::vector<Matrix>& fields) const {
     shares().gather(fields, [this](const Matrix& f, std::size_t a) { return exchange().image(a).vector(f); });
   }

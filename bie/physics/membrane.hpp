@@ -20,7 +20,7 @@ struct MembraneMaterial {
   Vector spontaneous_curvature;  ///< c
 };
 
-/// Those that are there, one after the other: visit(Vector&).
+/// Calls visit(Vector&) for each property that varies.
 template <typename Material, typename Visit>
 void for_each_property(Material& material, const Visit& visit) {
   for (auto* property : {&material.capacitance, &material.conductance, &material.pump_current,

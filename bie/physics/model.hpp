@@ -24,7 +24,7 @@ struct VesicleModel {
   std::shared_ptr<const PorationReaction> reaction{};  ///< null: the membrane conducts as much as ever
   bool by_place = false;           ///< some properties differ from place to place, see SurfaceFields::material
   std::optional<Waveform> pump{};  ///< of the pump current; empty without a pump
-  /// What acts on this vesicle alone: gravity, spontaneous curvature, …
+  /// Effects on this vesicle alone: gravity, spontaneous curvature, …
   std::vector<std::shared_ptr<const ExplicitEffect>> effects;
 };
 
@@ -35,7 +35,7 @@ struct Model {
   std::optional<AppliedField> electric;
   std::optional<ContactParameters> contact;  ///< between vesicles
   std::optional<Wall> wall{};                ///< beside all vesicles
-  /// Whatever else acts on every vesicle: Poiseuille flow, …
+  /// Other effects on every vesicle: Poiseuille flow, …
   std::vector<std::shared_ptr<const ExplicitEffect>> effects;
   bool mobile = true;  ///< false: the shapes are frozen and only the membranes charge
   std::vector<VesicleModel> vesicles = std::vector<VesicleModel>(1);

@@ -25,7 +25,7 @@ struct Undulations {
   bool operator==(const Undulations&) const = default;
 };
 
-/// What the velocity of one membrane depends on besides its shape and the forces.
+/// Parameters of the velocity of one membrane besides its shape and the forces.
 struct FlowParameters {
   double viscosity = 1.0;        ///< μ_e, outside
   double viscosity_ratio = 1.0;  ///< μ_i/μ_e
@@ -69,7 +69,7 @@ struct ElectricParameters {
 
   [[nodiscard]] double permittivity_in() const { return permittivity_ratio * permittivity; }
 
-  /// The same problem with the field and the pump of one time and no waveforms.
+  /// This problem with the field and the pump of one time and without waveforms.
   [[nodiscard]] ElectricParameters at(double time, Limit limit) const {
     ElectricParameters now = *this;
     now.field *= waveform.at(time, limit);

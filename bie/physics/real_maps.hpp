@@ -95,7 +95,7 @@ FieldOf<Scalar> mean_potential(const ElectricMembrane& of, const FieldOf<Scalar>
 
 using Layer = std::vector<Vector> (Interaction::*)(const std::vector<Vector>&) const;
 
-/// What the others do to each membrane; nothing without others.
+/// Contribution of the other membranes to each one; empty without others.
 template <typename Scalar>
 std::vector<FieldOf<Scalar>> of_others(const Interaction& interaction, Layer layer,
                                        const std::vector<FieldOf<Scalar>>& densities) {

@@ -9,7 +9,7 @@
 
 namespace vehd {
 
-/// What the potential off the membrane is made of: coefficients of degree p; an empty one is zero.
+/// Sources of the potential off the membrane: coefficients of degree p; an empty one is zero.
 struct PotentialSources {
   Vector3 field = Vector3::Zero();  ///< E_∞
   Vector transmembrane_potential;   ///< V_m
@@ -39,7 +39,7 @@ struct PotentialSamples {
 PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& position, const PotentialSources& sources,
                               const OffSurfaceSettings& settings, Instruments& instruments);
 
-/// What the velocity off the membrane is made of; an empty force is zero.
+/// Sources of the velocity off the membrane; an empty force is zero.
 struct VelocitySources {
   double viscosity = 1.0;                             ///< μ of the outside
   std::function<Vector3(const Vector3&)> background;  ///< v_∞ at a point; empty in a quiescent fluid

@@ -4,9 +4,9 @@
 
 namespace vehd {
 
-/// What the fluid does at a wall.
+/// Condition of the flow at a wall.
 enum class WallFlow { none, no_slip, stress_free };
-/// What the electric field does there.
+/// Condition of the electric field at a wall.
 enum class WallField { none, insulating, electrode };
 
 /// A plane that bounds the fluid, which is on the side that the normal points to. `none`: the wall does not touch the

@@ -74,9 +74,10 @@ struct FourierColumns {
   [[nodiscard]] std::size_t count() const { return cosine.size() + sine.size(); }
 };
 
-/// Of the components of x; `mirrored`: about a target in a plane of symmetry y = 0.
+/// Columns of the components of x.
+/// @param mirrored  the target lies in a plane of symmetry y = 0
 FourierColumns shape_columns(bool mirrored);
-/// Likewise of the kernels.
+/// Columns of the kernels; `mirrored` as above.
 FourierColumns row_columns(const KernelColumns& kernels, bool mirrored);
 
 /// Are there harmonics of even, of odd degree?

@@ -17,7 +17,7 @@ struct HemisphereAmplitudes {
   bool minus_sines = false;  ///< sines count negative
 };
 
-/// Where the same go that are found: of either part, of even and of odd m, of cosines and of sines, a block each,
+/// Layout of the amplitudes that analysis finds: a block for each part, for even and odd m, and for cosines and sines,
 /// numbered in this order with the last one fastest. Block b is at data + b * block: [latitudes x row_length] with
 /// order m in column m/2.
 struct FoundAmplitudes {
@@ -37,9 +37,10 @@ struct FoundAmplitudes {
 class FourierSums {
  public:
   /// @param n_phi  even, at least 2 order + 2
+  /// @throws ShapeError if n_phi is odd
   FourierSums(int n_phi, int order);
 
-  /// Of FoundAmplitudes.
+  /// Row length of FoundAmplitudes.
   [[nodiscard]] Index row_length() const { return row_length_; }
 
   /// @param values  [n_theta x n_phi], φ fastest

@@ -45,7 +45,7 @@ class SymmetrySubspace {
   /// coefficient_index of the coefficients of a scalar that may differ from zero if it is its own image, as H and λ
   /// are; ascending.
   [[nodiscard]] const std::vector<Index>& scalars() const { return lists_->scalars; }
-  /// Likewise of one that takes the sign of V_m, as V_m, φ and the charges do.
+  /// scalars() of a field that takes the sign of V_m, as V_m, φ and the charges do.
   [[nodiscard]] const std::vector<Index>& potentials() const { return lists_->potentials; }
   /// Positions in a column-major [n_coefficients x 3] of what mirrors and the axis leave of a vector field; ascending.
   /// Turns relate its components to one another and leave no position out.

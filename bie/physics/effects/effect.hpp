@@ -19,7 +19,7 @@ struct OperatorNeed {
   std::string why;
 };
 
-/// What one effect adds to the model, and what it needs in a step.
+/// The term that an effect adds to the model, and its needs in a step.
 struct EffectDescription {
   std::string name;
   std::string adds;  ///< the term of the model
@@ -27,7 +27,7 @@ struct EffectDescription {
   std::vector<std::string> unknowns;  ///< scalar fields of degree p that it adds to the unknowns of a step
 };
 
-/// What an effect sees: a frozen membrane at one time.
+/// Input of an effect: a frozen membrane at one time.
 struct EffectInput {
   const Membrane& membrane;
   const Matrix& position;  ///< coefficients of x, [n_coefficients x 3]
@@ -35,7 +35,7 @@ struct EffectInput {
   Limit limit = Limit::after;  ///< which value counts where a waveform jumps at this time
 };
 
-/// What effects add up to.
+/// Sum of the effects.
 struct Forcing {
   Matrix force;     ///< on the fluid per area, values on the upsampled grid, [n_points x 3]
   Matrix velocity;  ///< of the undisturbed fluid at the membrane, coefficients, [n_coefficients x 3]
@@ -46,7 +46,7 @@ class Effect {
  public:
   virtual ~Effect() = default;
 
-  /// What it adds and the operators that it needs.
+  /// Its term and the operators that it needs.
   [[nodiscard]] virtual EffectDescription description() const = 0;
   /// The sign of V_m for which the effect is its own image under the reflection g; 0 where it is for none.
   [[nodiscard]] virtual int potential_sign(const Reflection&) const { return 1; }
@@ -76,7 +76,7 @@ class ExplicitEffect : public Effect {
   [[nodiscard]] bool is_same_everywhere() const override { return false; }
   /// Does the other one do the same to any membrane? Of effects on one vesicle alone this may tell equal ones.
   [[nodiscard]] virtual bool is_same_as(const ExplicitEffect& other) const { return this == &other; }
-  /// The same effect rotated by the rotation R.
+  /// This effect rotated by R.
   [[nodiscard]] virtual std::shared_ptr<const ExplicitEffect> rotated(const Matrix3& rotation) const = 0;
 
   /// The mean curvature c that it makes a membrane prefer; 0: none.
@@ -97,7 +97,7 @@ struct VesicleModel;
 /// An effect of a model; null where the model does not have it.
 using MadeEffect = std::shared_ptr<const Effect>;
 
-/// What registers an effect, see effect_table. Those that stand in the lists of a model themselves have a name alone.
+/// Registration of an effect, see effect_table. Those that stand in the lists of a model themselves have a name alone.
 struct EffectRow {
   std::string_view name;
   /// The effect on one vesicle of a model, unless it is one of the model's lists.

@@ -13,7 +13,8 @@ struct PorationCriterion {
   bool operator==(const PorationCriterion&) const = default;
 };
 
-/// What makes a membrane conduct beyond its G_m: a number s at every material point that V_m there drives.
+/// The porated state of a membrane, which raises its conductance: a number s at every material point, driven by V_m
+/// there.
 ///
 ///   ds/dt = r(s, V),  current through the membrane (G_m + g(s)) V
 ///
@@ -37,7 +38,7 @@ class PorationReaction : public Effect {
   [[nodiscard]] virtual Slope implicit_step(double known, double dt, double potential) const = 0;
   /// A potential on the way from one to another, up to which the slopes at the former still say something.
   [[nodiscard]] virtual double limited(double from, double to) const = 0;
-  /// What a history tells: the porosity, or the density of pores.
+  /// Value in the history: the porosity, or the density of pores.
   [[nodiscard]] virtual double measure(double s) const = 0;
 };
 
