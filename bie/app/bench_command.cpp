@@ -236,7 +236,7 @@ void add_all(CLI::App& bench, ExitCode& exit_code) {
   command->add_option("--docs", options->docs, "Folder of the pages, with scenes/")
       ->type_name("DIR")
       ->capture_default_str();
-  command->add_flag("--quick", options->quick, "Little of each, to see that it works");
+  command->add_flag("--quick", options->quick, "A small part of each, as a test");
   command->add_option("--only", options->only, "Only these benches")
       ->delimiter(',')
       ->check(CLI::IsMember(names_of_benches()));

@@ -73,7 +73,7 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
   add_snapshot_time(*command, options->time);
   command
       ->add_option("--from", options->from,
-                   "Also let the finite elements advance V_m from the snapshot of this time to the one that is checked")
+                   "Also advance V_m by finite elements from the snapshot of this time to the one that is checked")
       ->type_name("T")
       ->check(time_text());
   command

@@ -104,8 +104,8 @@ void print(const RunPlan& plan) {
   if (const std::size_t n = plan.vesicles.size(); n > 1) {
     const auto targets = [&](const char* way) { return plan.pair_targets.at(way); };
     fmt::print(
-        "pairs      {} of a vesicle and another, whose layers it feels: at the start at {} nodes by rows, at {} by "
-        "sums, at {} by expansions\n",
+        "pairs      {}, layers of one vesicle on another: at the start {} nodes by rows, {} by sums, {} by "
+        "expansions\n",
         n * (n - 1), targets("near"), targets("far"), targets("expanded"));
   }
   fmt::print("unknowns   {} a step\n", plan.unknowns);

@@ -62,8 +62,8 @@ ExitCode plot(const PlotOptions& options) {
   const PlotTask task = task_of(options);
   if (is_sweep(options.directory)) return plot_table(options, task);
   if (!options.columns.empty() || options.border || !options.curves.empty()) {
-    throw InputError(
-        fmt::format("{}: is no sweep, to whose pictures --column, --border and --curve belong", options.directory));
+    throw InputError(fmt::format("{}: is not a sweep; --column, --border and --curve are for pictures of sweeps",
+                                 options.directory));
   }
   const auto format = format_of(options.output);
   if (options.movie && format) {

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <omp.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
@@ -86,10 +85,6 @@ ExitCode run(const RunOptions& options, const Ranks& ranks) {
     fmt::print("{}: the run is already complete, nothing to do\n", session.paths().directory.string());
     write_json(options.common, session.last_summary());
     return ExitCode::done;
-  }
-  if (const auto threads = session.threads_before(); threads && *threads != omp_get_max_threads()) {
-    spdlog::warn("the run was started with {} threads and continues with {}: the last digits may differ", *threads,
-                 omp_get_max_threads());
   }
   for (const SceneChange& change : session.changes()) fmt::print("changed at {}\n", text_of(change));
   Progress progress(options.quiet || !ranks.is_first() ? Progress::Style::none : Progress::suitable_style());

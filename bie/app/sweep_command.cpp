@@ -181,7 +181,7 @@ void add_sweep_command(CLI::App& program, ExitCode& exit_code) {
       ->type_name("DIR");
   add_workers(*command, options->workers);
   CLI::Option* emit =
-      command->add_option("--emit", options->emit, "Run nothing: write DIR/sweep.sbatch, an array of jobs for Slurm")
+      command->add_option("--emit", options->emit, "Only write DIR/sweep.sbatch, an array of jobs for Slurm")
           ->check(one_of({"slurm"}));
   command
       ->add_option("--minutes", options->minutes,

@@ -67,7 +67,7 @@ void require_same_physics(const Scene& scene, const SceneSource& source, const C
     if (has_bars && checkpoint.state.step > 0 && key.starts_with("numerics.") && key != "numerics.end_time") {
       refuse(key, "error_bars compare two runs from the start: keep the value or choose another -o");
     }
-    if (key == "output.units") refuse(key, "history.csv goes on in the units that it began with: keep the value");
+    if (key == "output.units") refuse(key, "history.csv keeps the units of its first session: keep the value");
     if (key == "numerics.symmetry" && stored.numerics.symmetry == SymmetryUse::off) {
       refuse(key, "a state that was computed without symmetry need not have any: keep \"off\" or choose another -o");
     }

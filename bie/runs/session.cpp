@@ -45,7 +45,6 @@ RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesy
   require_same_physics(scene_, source, *checkpoint_, paths_);
   require_intact(paths_, *checkpoint_);
   complete_ = has_ended(scene_, *checkpoint_, paths_);
-  threads_before_ = checkpoint_->threads;
   n_changes_before_ = checkpoint_->changes.size();
   if (!complete_) checkpoint_ = continued(std::move(*checkpoint_), scene_, paths_);
 }

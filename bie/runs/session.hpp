@@ -34,14 +34,12 @@ class RunSession {
   [[nodiscard]] const RunPaths& paths() const { return paths_; }
   /// A former session has reached the end of the scene: nothing is left to do.
   [[nodiscard]] bool is_complete() const { return complete_; }
-  /// Number of threads of the first session, where a run goes on.
-  [[nodiscard]] std::optional<std::int64_t> threads_before() const { return threads_before_; }
   /// Time that former sessions have computed.
   [[nodiscard]] double seconds_before() const { return checkpoint_ ? checkpoint_->totals.seconds : 0.0; }
-  /// What this session finds changed in the scene.
+  /// Changes of the scene since the last session.
   [[nodiscard]] std::vector<SceneChange> changes() const;
 
-  /// What it is to do; refers to the session, which must outlive it.
+  /// The task of the session, which must outlive it.
   [[nodiscard]] RunTask task(TellStatus tell) const {
     return {scene_, paths_, checkpoint_, std::move(tell), {}, ranks_};
   }
@@ -64,7 +62,6 @@ class RunSession {
   Ranks ranks_;
   std::unique_ptr<DirectoryLock> lock_;
   std::optional<Checkpoint> checkpoint_;
-  std::optional<std::int64_t> threads_before_;
   std::size_t n_changes_before_ = 0;
   bool complete_ = false;
 };

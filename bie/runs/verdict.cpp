@@ -181,7 +181,7 @@ std::optional<std::string> narrow_gap(const HistoryTable& history) {
     if (!worst_row || degree[i] > degree[*worst_row]) worst_row = i;
   }
   if (!first) return std::nullopt;
-  return fmt::format("{} asks for more than the degree {:g} since time {} (worst {:.0f})",
+  return fmt::format("{} needs more than the degree {:g} since time {} (worst {:.0f})",
                      history.has("smallest_gap") ? "smallest_gap" : "gap_wall", order[*first],
                      history.time_text(history.column("time")[*first]), degree[*worst_row]);
 }

@@ -29,7 +29,7 @@ double number_of_time(const std::string& text, const std::optional<UnitsScene>& 
   }
   if (!scales || !scales->time) {
     throw InputError(
-        fmt::format("the time \"{}\" has a unit, but the scene has none of time; accepted: a number", text));
+        fmt::format("the time \"{}\" has a unit, but the scene has no unit of time; accepted: a number", text));
   }
   return quantity.in_si(*find_dimension("time")->find(quantity.unit)) / *scales->time;
 }

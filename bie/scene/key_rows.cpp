@@ -282,7 +282,7 @@ void add_numerics(auto& scene) {
   auto numerics = scene.always("numerics", &Scene::numerics, "resolution in space and time", required);
   numerics.key("tolerance", &NumericsScene::tolerance, {tightest_tolerance, 0.1},
                {"", "1",
-                "relative error wanted in the columns of history.csv: degree, steps and solvers follow; absent: they "
+                "required relative error of the columns of history.csv: degree, steps and solvers follow; absent: they "
                 "are fixed"});
   numerics
       .key("degree", &NumericsScene::order, {lowest_order, highest_order},
@@ -310,7 +310,7 @@ void add_numerics(auto& scene) {
 void add_output(auto& scene) {
   auto output = scene.always("output", &Scene::output, "what is written");
   output.key("every", &OutputScene::every, positive,
-             {"", "time", "time between snapshots; absent: the start, the end, and what times and window ask for"});
+             {"", "time", "time between snapshots; absent: the start, the end, and those of times and window"});
   output.key("times", &OutputScene::times, not_negative, {"", "time", "further times of snapshots, ascending"});
   output.key("window", &OutputScene::windows, not_negative,
              {"", "time",

@@ -253,7 +253,7 @@ void read_sweep_mode(const TomlFile& file, SweepFile& sweep) {
     }
   }
   if (sweep.n_runs() > most_runs) {
-    throw InputError(fmt::format("{}: asks for more runs than {}; accepted: at most as many", file.name, most_runs));
+    throw InputError(fmt::format("{}: makes more than {} runs; accepted: at most that many", file.name, most_runs));
   }
 }
 

@@ -45,8 +45,8 @@ BOOST_AUTO_TEST_CASE(scenes_that_ask_for_too_much) {
   const std::string start = "[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 2]\n[numerics]\n";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"order = 1000000000\ndt = 1\nend_time = 1\n", ":5: \"order\" in [numerics] is 1000000000; accepted: "},
-      {"dt = 1e-12\nend_time = 1\n", ":5: \"dt\" in [numerics] asks for 1e+12 steps; accepted: at most 1e+09"},
-      {"dt = 1\nend_time = 1\n[output]\nevery = 1e-12\n", "asks for 1e+12 snapshots; accepted: at most 999999"}};
+      {"dt = 1e-12\nend_time = 1\n", ":5: \"dt\" in [numerics] makes 1e+12 steps; accepted: at most 1e+09"},
+      {"dt = 1\nend_time = 1\n[output]\nevery = 1e-12\n", "makes 1e+12 snapshots; accepted: at most 999999"}};
   for (const auto& [text, part] : cases) {
     write_text(directory / "scene.toml", start + text);
     for (const char* command : {"run", "plan"}) {

@@ -78,7 +78,7 @@ BOOST_FIXTURE_TEST_CASE(times_outside_the_run_are_refused, ShortRun) {
   const ProgramResult unit = plot("0,1 ms");
   BOOST_TEST(unit.exit_code == 1);
   BOOST_TEST(unit.errors ==
-             file() + ": the time \"1 ms\" has a unit, but the scene has none of time; accepted: a number\n");
+             file() + ": the time \"1 ms\" has a unit, but the scene has no unit of time; accepted: a number\n");
 }
 
 // Found: a number was one of the scene, 10 us, where everything that a user reads says us.

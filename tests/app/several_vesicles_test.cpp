@@ -245,7 +245,7 @@ BOOST_AUTO_TEST_CASE(a_run_at_its_limit_says_which_two_where_and_how_near) {
   BOOST_TEST(verdict.find(": vesicles \"lower\" and \"upper\" come within 0.001 radii of each other at "
                           "(0, 0, 0); accepted: 0.001, ") != std::string::npos,
              verdict);
-  BOOST_TEST(verdict.find("smallest_gap asks for more than the degree 8 since time 0 ") != std::string::npos, verdict);
+  BOOST_TEST(verdict.find("smallest_gap needs more than the degree 8 since time 0 ") != std::string::npos, verdict);
   BOOST_TEST(summary.at("smallest_gap").get<double>() > 0.9e-3);
 }
 

@@ -145,7 +145,7 @@ BOOST_FIXTURE_TEST_CASE(a_dimensionless_run_names_no_unit, SiRun) {
   BOOST_TEST(!has(file_text(output + "/history.csv"), "["));
 }
 
-// A longer run would be shown in ms: the file goes on in the units that it began with.
+// A longer run would be shown in ms: the file keeps its units.
 BOOST_FIXTURE_TEST_CASE(a_run_goes_on_in_the_units_of_its_history, SiRun) {
   const std::string begun = run("run", pulse("", "200 us"));
   const std::string text = file_text(begun + "/history.csv");
@@ -159,7 +159,7 @@ BOOST_FIXTURE_TEST_CASE(a_run_goes_on_in_the_units_of_its_history, SiRun) {
   const ProgramResult refused = run_vehd({"run", directory / "run.toml", "-o", begun, "--resume"});
   BOOST_TEST(refused.exit_code == 1);
   BOOST_TEST(has(refused.errors, "\"output.units\" is \"dimensionless\", but the run in "));
-  BOOST_TEST(has(refused.errors, "history.csv goes on in the units that it began with"));
+  BOOST_TEST(has(refused.errors, "history.csv keeps the units of its first session"));
 }
 
 BOOST_FIXTURE_TEST_CASE(a_stopped_si_run_continues_bit_for_bit, SiRun) {

@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(effects_are_those_that_the_scene_names) {
 BOOST_AUTO_TEST_CASE(combinations_without_an_effect_are_refused_in_one_line) {
   BOOST_TEST(
       message_with("[gravity]\nacceleration = [0, 0, -1]\n") ==
-      "scene.toml:9: [gravity] acts on nothing: \"density_difference\" in [fluid] is 0; accepted: any other value");
+      "scene.toml:9: [gravity] has no effect: \"density_difference\" in [fluid] is 0; accepted: any other value");
   BOOST_TEST(message_with("[fluid]\ndensity_difference = 1\n") ==
              "scene.toml:9: \"density_difference\" in [fluid] has no effect without [gravity]");
   BOOST_TEST(message_with("[fluid]\ndensity_difference = 1\n[gravity]\nacceleration = [0, 0, 0]\n") ==

@@ -113,25 +113,25 @@ BOOST_AUTO_TEST_CASE(steps_that_no_run_takes_are_refused) {
                     ac = "kind = 'ac'\nfrequency = ";
   for (const char* keys : {"tolerance = 1e-3\n", "dt = 0.1\n"}) {
     BOOST_TEST(message(keys, train) ==
-               "scene.toml:14: \"period\" in [electric.waveform] asks for 1e+12 steps; accepted: at most 1e+09");
+               "scene.toml:14: \"period\" in [electric.waveform] makes 1e+12 steps; accepted: at most 1e+09");
   }
   BOOST_TEST(message("tolerance = 1e-3\n", ac + "1e12\n") ==
-             "scene.toml:13: \"frequency\" in [electric.waveform] asks for 8e+12 steps; accepted: at most 1e+09");
+             "scene.toml:13: \"frequency\" in [electric.waveform] makes 8e+12 steps; accepted: at most 1e+09");
   BOOST_TEST(message("tolerance = 1e-3\ndt = 1e-12\n", "kind = 'dc'\n") ==
-             "scene.toml:6: \"dt\" in [numerics] asks for 1e+12 steps; accepted: at most 1e+09");
+             "scene.toml:6: \"dt\" in [numerics] makes 1e+12 steps; accepted: at most 1e+09");
   BOOST_TEST(message("tolerance = 1e-3\n", ac + "1e8\n") == "");
   BOOST_TEST(message("tolerance = 1e-3\n", ac + "1e12\naverage = true\n") == "");
 }
 
 BOOST_AUTO_TEST_CASE(sizes_that_no_machine_has_are_refused) {
   BOOST_TEST(message_of(numerics("dt = 1\nend_time = 1e12\n")) ==
-             "scene.toml:5: \"dt\" in [numerics] asks for 1e+12 steps; accepted: at most 1e+09");
+             "scene.toml:5: \"dt\" in [numerics] makes 1e+12 steps; accepted: at most 1e+09");
   BOOST_TEST(message_of(numerics("dt = 1e-50\nend_time = 1e300\n")) ==
-             "scene.toml:5: \"dt\" in [numerics] asks for inf steps; accepted: at most 1e+09");
+             "scene.toml:5: \"dt\" in [numerics] makes inf steps; accepted: at most 1e+09");
   BOOST_TEST(message_of(numerics("dt = 1e-3\nend_time = 1\n[output]\nevery = 1e-12\n")) ==
-             "scene.toml:8: \"every\" in [output] asks for 1e+12 snapshots; accepted: at most 999999");
+             "scene.toml:8: \"every\" in [output] makes 1e+12 snapshots; accepted: at most 999999");
   BOOST_TEST(message_of(numerics("tolerance = 1e-3\nend_time = 1e300\n[output]\nevery = 1\n")) ==
-             "scene.toml:8: \"every\" in [output] asks for 1e+300 snapshots; accepted: at most 999999");
+             "scene.toml:8: \"every\" in [output] makes 1e+300 snapshots; accepted: at most 999999");
   BOOST_TEST(message_of(numerics("dt = 1\nend_time = 1\norder = 9223372036854775807\n")) ==
              "scene.toml:7: \"order\" in [numerics] is 9223372036854775807; accepted: an integer, 4 ... 64");
   BOOST_TEST(message_of("[shape]\nkind = 'radial'\nmodes = [{n = 1000000000, m = 0, a = 1}]\n")

@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(wrong_windows_and_times_say_what_is_accepted) {
   BOOST_TEST(message("times = [0.5, 0.25]\n") ==
              "scene.toml:9: \"times\" in [output] falls to 0.25; accepted: ascending times");
   BOOST_TEST(message("window = [{from = 0, to = 1, every = 1e-9}]\n") ==
-             "scene.toml:9: \"window\" in [output] asks for 1e+09 snapshots; accepted: at most 999999");
+             "scene.toml:9: \"window\" in [output] makes 1e+09 snapshots; accepted: at most 999999");
 }
 
 BOOST_AUTO_TEST_CASE(times_of_a_run_are_sorted_and_compared_with_it) {

@@ -96,8 +96,8 @@ BOOST_AUTO_TEST_CASE(time_step_and_counts) {
   const std::string start = "[shape]\nkind='ellipsoid'\naxes=[1,1,1]\n[numerics]\n";
   BOOST_TEST(message_of(start + "dt=0\nend_time=1\n") ==
              "scene.toml:5: \"dt\" in [numerics] is 0; accepted: a number > 0");
-  BOOST_TEST(
-      message_of(start + "dt=1\nend_time=1e12\n").find("scene.toml:5: \"dt\" in [numerics] asks for 1e+12 steps") == 0);
+  BOOST_TEST(message_of(start + "dt=1\nend_time=1e12\n").find("scene.toml:5: \"dt\" in [numerics] makes 1e+12 steps") ==
+             0);
   BOOST_TEST(message_of(start + "dt=1\nend_time=100\n[output]\nevery=1e-5\n").find("scene.toml:8: \"every\"") == 0);
 }
 

@@ -225,8 +225,9 @@ BOOST_AUTO_TEST_CASE(a_potential_that_no_file_has_is_refused) {
   const std::string from_file = electric + "initial_Vm = \"file\"\n";
   BOOST_TEST(plain.message(plain.scene("", "", from_file)) ==
              "scene.toml:9: \"initial_Vm\" in [electric] is file, but FILE has no V_m; accepted: zero, steady");
-  BOOST_TEST(plain.message(ellipsoid + from_file + numerics) ==
-             "scene.toml:9: \"initial_Vm\" in [electric] is file, but the shape is from none; accepted: zero, steady");
+  BOOST_TEST(
+      plain.message(ellipsoid + from_file + numerics) ==
+      "scene.toml:9: \"initial_Vm\" in [electric] is file, but the shape is not from a file; accepted: zero, steady");
 }
 
 BOOST_AUTO_TEST_CASE(every_dataset_says_what_its_numbers_are_in_si) {

@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(its_place_has_units) {
 BOOST_AUTO_TEST_CASE(what_acts_on_nothing_is_said) {
   BOOST_TEST(refuses("[wall]\nflow = \"no-slip\"\n", "missing key \"normal\" in [wall]"));
   BOOST_TEST(refuses("[wall]\nnormal = [0, 0, 0]\nflow = \"no-slip\"\n", "\"normal\" in [wall] is 0, 0, 0"));
-  BOOST_TEST(refuses(kFloor, "acts on nothing"));
+  BOOST_TEST(refuses(kFloor, "[wall] has no effect"));
   BOOST_TEST(refuses(kFloor + std::string("flow = \"slip\"\n"), "did you mean \"no-slip\"?"));
   BOOST_TEST(refuses(kFloor + std::string("field = \"insulating\"\n"), "has no effect without [electric]"));
   BOOST_TEST(refuses(

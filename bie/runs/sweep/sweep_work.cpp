@@ -49,7 +49,7 @@ std::optional<RunResult> compute(const SweepTask& task, const SweepRun& run, Int
   } catch (const InputError& error) {
     return RunResult{"refused", error.what(), seconds()};
   } catch (const ConvergenceError& error) {
-    const std::string reason = fmt::format("what the scene asks for cannot be computed: {}", error.what());
+    const std::string reason = fmt::format("the scene cannot be computed: {}", error.what());
     return RunResult{"refused", reason, seconds()};
   } catch (const OutputError&) {
     throw;

@@ -131,7 +131,7 @@ class SceneChecks {
     const MembraneScene& membrane = scene_.membrane;
     const bool heavy = scene_.fluid.density_difference != 0.0;
     refuse_if(scene_.gravity && !heavy && !is_heavy_, "gravity.acceleration",
-              "[gravity] acts on nothing: \"density_difference\" in [fluid] is 0; accepted: any other value");
+              "[gravity] has no effect: \"density_difference\" in [fluid] is 0; accepted: any other value");
     refuse_if(heavy && !scene_.gravity, "fluid.density_difference", "{} has no effect without [gravity]");
     refuse_if(scene_.gravity && scene_.gravity->acceleration == Triple{}, "gravity.acceleration",
               "{} is 0; accepted: a vector that is not zero");
@@ -194,7 +194,7 @@ class SceneChecks {
     for (const auto& [count, key] : demands) steps += count;
     if (steps <= most_steps) return;
     const auto& [count, key] = *std::ranges::max_element(demands);
-    refuse_if(true, key, "{} asks for {:.3g} steps; accepted: at most {:g}", count, most_steps);
+    refuse_if(true, key, "{} makes {:.3g} steps; accepted: at most {:g}", count, most_steps);
   }
 
   void check_output() const {
@@ -209,7 +209,7 @@ class SceneChecks {
     double count = 0.0;
     const auto add = [&](std::string_view key, double more) {
       count += more;
-      refuse_if(count > most_snapshots, key, "{} asks for {:.3g} snapshots; accepted: at most {:g}", count,
+      refuse_if(count > most_snapshots, key, "{} makes {:.3g} snapshots; accepted: at most {:g}", count,
                 most_snapshots);
     };
     if (output.every) add("output.every", end / *output.every);
@@ -298,7 +298,7 @@ class SceneChecks {
     const ShapeScene& shape = scene_.shape;
     if (shape.kind != ShapeKind::file) {
       refuse_if(takes_stored_potential(scene_), "electric.initial_Vm",
-                "{} is file, but the shape is from none; accepted: zero, steady");
+                "{} is file, but the shape is not from a file; accepted: zero, steady");
       return;
     }
     std::error_code error;
@@ -354,7 +354,7 @@ class SceneChecks {
 
   void check_poration(const PorationScene& poration) const {
     refuse_if(has_averaged_field(scene_), "poration.model",
-              "\"average\" in [electric.waveform] is true with [poration], which asks for V_m at every moment; "
+              "\"average\" in [electric.waveform] is true with [poration], which needs V_m at every time; "
               "accepted: false");
     if (poration.model == PorationModel::criterion) {
       refuse_if(!poration.threshold_potential && !poration.lysis_tension, "poration.model",
@@ -370,7 +370,7 @@ class SceneChecks {
       return;
     }
     refuse_if(!scene_.electric, "poration.model",
-              "[poration] acts on nothing without [electric]; accepted: model = criterion");
+              "[poration] has no effect without [electric]; accepted: model = criterion");
     const ElectricScene& electric = *scene_.electric;
     refuse_if(electric.initial_potential == InitialPotential::steady, "poration.model",
               "[poration] with a steady \"initial_Vm\" in [electric], under which a membrane would porate at once; "

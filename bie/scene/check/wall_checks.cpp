@@ -26,7 +26,7 @@ class WallChecks {
   void run() const {
     if (wall_.flow == WallFlow::none && wall_.field == WallField::none) {
       file_.refuse(table(),
-                   "[wall] acts on nothing; accepted: \"flow\" no-slip or stress-free, \"field\" insulating or "
+                   "[wall] has no effect; accepted: \"flow\" no-slip or stress-free, \"field\" insulating or "
                    "electrode, or both");
     }
     if (wall_.field != WallField::none) check_field();
