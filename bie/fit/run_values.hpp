@@ -8,7 +8,7 @@
 
 namespace vehd {
 
-/// What a finished run predicts for its data, in SI base units where the scene has [units]: at the time of each datum,
+/// Predictions of a finished run for its data, in SI base units where the scene has [units]: at the time of each datum,
 /// or at the end of the run.
 /// @param directory  the runs are below it
 /// @throws InputError if the run did not reach its end, or its files cannot be read

@@ -13,7 +13,7 @@ namespace py = pybind11;
 /// @param owner  Python object that keeps them alive as long as the array is
 /// @return  [n] of a vector; [n, columns] of a matrix, whose columns are contiguous; None where it is empty
 py::object view(const Vector& values, py::handle owner);
-/// See above.
+/// The array of a matrix, [n, columns]; owner as above.
 py::object view(const Matrix& values, py::handle owner);
 
 /// A result with one axis where the argument that it was made from has one, with two otherwise.

@@ -21,7 +21,7 @@ class LayerMatrix {
   /// @param density  [size] or [size x n]
   /// @throws ShapeError
   [[nodiscard]] Matrix apply(const Matrix& density) const;
-  /// What `apply` does, as a matrix, [size x size].
+  /// The matrix of `apply`, [size x size].
   [[nodiscard]] Matrix matrix() const;
 
  private:

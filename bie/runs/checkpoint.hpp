@@ -21,7 +21,7 @@ struct RunTotals {
   std::map<std::string, std::uint64_t> pair_targets{};  ///< see Instruments
 };
 
-/// What error bars need to go on, see ErrorBars. Rows have the columns of history.csv, without units.
+/// State from which error bars continue, see ErrorBars. Rows have the columns of history.csv, without units.
 struct CompanionState {
   State state{};                 ///< of the companion
   std::int64_t start_order = 0;  ///< of it, see Checkpoint

@@ -8,7 +8,7 @@
 #include "bie/scene/scene.hpp"
 #include "bie/scene/settings.hpp"
 
-/// What a session of a run may change of its scene.
+/// Changes of its scene that a session of a run accepts.
 namespace vehd {
 
 /// The physics of a run stay what they were; [numerics] and [output] may change, but for a symmetry that was switched

@@ -28,7 +28,7 @@ struct RunOutcome {
   bool cannot_step = false;  ///< no step is acceptable: continued unchanged, the run would stop there again
 };
 
-/// What a session of a run is to do, and whom it tells.
+/// Task of a session of a run, with its callbacks.
 struct RunTask {
   const Scene& scene;
   const RunPaths& paths;

@@ -24,7 +24,7 @@ std::vector<SceneChange> numerical_changes(const Scene& before, const Scene& aft
 
 /// An array of objects {time, step, key, from, to}.
 nlohmann::json json_of(const std::vector<SceneChange>& changes);
-/// The other way. @throws nlohmann::json::exception
+/// Changes from JSON, the inverse of the above. @throws nlohmann::json::exception
 std::vector<SceneChange> changes_of(const nlohmann::json& json);
 
 /// "time 1.5 (step 30): numerics.dt = 0.01, before 0.05"

@@ -4,7 +4,7 @@
 
 #include "bie/runs/history.hpp"
 
-/// What the tables of a run of several vesicles tell of one moment.
+/// Rows of the tables of a run of several vesicles at one time.
 namespace vehd {
 
 /// The row of all of them: energies, ∫λ dA and what the suspension feels are sums, everything else is the worst of any

@@ -7,7 +7,7 @@
 
 namespace vehd {
 
-/// What errors of a column are divided by: its largest magnitude, a radian for an angle. 0 where they do not count: of
+/// Scale of the errors of a column: its largest magnitude, a radian for an angle. 0 where they do not count: of
 /// all but shape, energy, tension and potentials, and of what vanishes by symmetry.
 double size_of_column(const HistoryTable& history, const std::string& name);
 

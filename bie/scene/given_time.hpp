@@ -8,7 +8,7 @@
 /// Times that people write outside of a scene, on a command line: "0.5 ms", or a number.
 namespace vehd {
 
-/// What is wrong with the text of a time, of whatever scene it is; empty if nothing is.
+/// The fault in the text of a time, for any scene; empty if there is none.
 std::string problem_of_time(const std::string& text);
 
 /// A time as a number of a scene.

@@ -7,7 +7,7 @@
 
 namespace vehd {
 
-/// What a run of a scene computes with. All vectors are those of the frame.
+/// The problem that a run of a scene solves. All vectors are those of the frame.
 struct Problem {
   Frame frame;
   Model model;
@@ -31,7 +31,7 @@ Problem problem_of(const Scene& scene);
 /// found there, and its state is in them.
 Problem problem_of(const Scene& scene, int start_order);
 
-/// The same with another model, in laboratory coordinates, on the scene's shape.
+/// The problem with another model, in laboratory coordinates, on the scene's shape.
 Problem problem_of(const Scene& scene, const Model& model);
 
 }  // namespace vehd

@@ -15,10 +15,10 @@ class RunReader;
 /// @throws InputError "file:line: what is wrong, the value, what is accepted"
 Scene read_scene(const std::filesystem::path& path);
 
-/// The same with other values for some keys. A message about one of these names it in place of "file:line".
+/// Reads a scene with other values for some keys. A message about one of these names it in place of "file:line".
 Scene read_scene(const SceneSource& source);
 
-/// The same for text in memory.
+/// Reads a scene from text in memory.
 /// @param name    stands for the file in messages
 /// @param folder  where relative paths in the scene start
 /// @param settings  values that take the place of those in the text, see SceneSource

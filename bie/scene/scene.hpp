@@ -49,7 +49,7 @@ enum class RunsUntil { end_time, rest };
 /// Values of units in [output].
 enum class ResultUnits { automatic, si, dimensionless };
 
-/// What 1 means in a scene, in SI base units; a scale that no value needs may be absent.
+/// Reference scales of a scene, in SI base units; a scale that no value needs may be absent.
 struct UnitsScene {
   std::optional<double> length, time, viscosity, potential;
   std::optional<double> temperature{};  ///< of energies in kBT; no scale

@@ -80,7 +80,7 @@ struct KeyDescription {
   [[nodiscard]] bool is_for(std::string_view kind) const;
   /// Its type in a word or two.
   [[nodiscard]] std::string_view type_text() const;
-  /// What it accepts, in words.
+  /// Accepted values, in words.
   [[nodiscard]] std::string accepted_text() const;
 };
 
@@ -95,7 +95,7 @@ struct TableDescription {
 
 /// In the order in which tables and keys are read and written.
 const std::vector<TableDescription>& scene_tables();
-/// Likewise the keys of all tables.
+/// The keys of all tables.
 const std::vector<KeyDescription>& scene_keys();
 
 /// Names of the keys of a table, each once.

@@ -17,7 +17,7 @@ std::vector<KeyReference> key_references();
 /// For a terminal: one block of aligned columns for each table.
 std::string scene_help();
 
-/// The same as a Markdown page, docs/scene_keys.md.
+/// The keys of scenes as a Markdown page, docs/scene_keys.md.
 std::string scene_help_markdown();
 
 }  // namespace vehd

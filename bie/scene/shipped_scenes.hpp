@@ -15,7 +15,7 @@ struct ShippedScene {
 /// All of docs/scenes as they were when the program was built, in the order of their names.
 const std::vector<ShippedScene>& shipped_scenes();
 
-/// What a scene shows: the first sentence of the comment that it starts with.
+/// Description of a scene: the first sentence of its first comment.
 std::string title_of(const ShippedScene& scene);
 
 }  // namespace vehd

@@ -80,7 +80,7 @@ std::optional<double> reference_scale(const UnitsScene& units, const Dimension& 
 /// SI value of 1 of a dimension by its name, 1 of a pure number ("1").
 /// @return NaN where the scene does not say
 double si_scale(const std::optional<UnitsScene>& units, std::string_view dimension);
-/// What numbers of each dimension are in SI units, as files say it.
+/// SI values of the numbers of each dimension, as files state them.
 SiUnits si_units_of(const std::optional<UnitsScene>& units);
 
 /// Factor from numbers of one scene to those of another: the ratio of their reference scales, 1 where neither has one.

@@ -78,13 +78,13 @@ void for_each_member(Index count, const Body& body) {
   exceptions.rethrow_first();
 }
 
-/// The same for these members: body(member).
+/// Parallel loop over given members: body(member).
 template <typename Body>
 void for_each_member(const std::vector<std::size_t>& members, const Body& body) {
   for_each_member(std::ssize(members), [&](Index i) { body(members[static_cast<std::size_t>(i)]); });
 }
 
-/// The same where members count their work: body(i, instruments).
+/// Parallel loop whose members count their work: body(i, instruments).
 template <typename Body>
 void for_each_member(Index count, Instruments& instruments, const Body& body) {
   if (!are_many(count)) {
@@ -96,7 +96,7 @@ void for_each_member(Index count, Instruments& instruments, const Body& body) {
   });
 }
 
-/// The same for these members: body(member, instruments).
+/// Parallel loop over given members that count their work: body(member, instruments).
 template <typename Body>
 void for_each_member(const std::vector<std::size_t>& members, Instruments& instruments, const Body& body) {
   for_each_member(std::ssize(members), instruments,

@@ -6,7 +6,7 @@
 
 #include "bie/scene/read/toml_values.hpp"
 
-/// What parse_scene does with a scene file, in the order of its steps. Each throws InputError "file:line: ..." at the
+/// The steps of parse_scene on a scene file, in their order. Each throws InputError "file:line: ..." at the
 /// key to blame.
 namespace vehd {
 
