@@ -54,12 +54,14 @@ using KeepFormer = std::function<void(State&&, Evaluation&&)>;
 /// tolerance (tests/stepping/adaptive_evolution_test.cpp); with steps of fixed size that of deferred_correction
 class Evolution {
  public:
-  /// From shapes and V_m at time 0. @throws ConvergenceError
+  /// Starts from shapes and V_m at time 0.
+  /// @throws ConvergenceError if a steady V_m is not found
   Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& start, Instruments& instruments);
-  /// From a state of such a run.
+  /// Continues from a state of such a run.
   Evolution(EvolutionSetup setup, State state, Instruments& instruments);
 
-  /// Solves everything at the start; before the first step. @throws ConvergenceError
+  /// Solves everything at the start; to be called before the first step.
+  /// @throws ConvergenceError if a solve fails
   void evaluate_start();
 
   /// One accepted step towards the next of the given times; its state is state().
@@ -91,15 +93,15 @@ class Evolution {
     Evaluation evaluation;
     SmallestGap gap;
   };
-  /// Those of the last step.
+  /// The moments of the last step.
   [[nodiscard]] const std::vector<Moment>& passed() const { return passed_; }
   /// Degree of a vesicle at present.
   [[nodiscard]] int order(std::size_t vesicle) const { return discretisation_.vesicle(vesicle).order(); }
   /// Estimated share of what the degrees leave out, see Resolution; of the vesicle that loses most.
   [[nodiscard]] double truncation() const { return truncation(state_); }
-  /// The same of another state of this run.
+  /// truncation() of another state of this run.
   [[nodiscard]] double truncation(const State& state) const;
-  /// Of a vesicle of a state of this run, by what can be seen of it with a tolerance.
+  /// Resolution of a vesicle in a state of this run; with a tolerance of its visible part.
   [[nodiscard]] Resolution resolution(const State& state, std::size_t vesicle) const;
   /// The two vesicles that are nearest to each other.
   [[nodiscard]] const SmallestGap& gap() const { return gap_; }

@@ -38,18 +38,19 @@ VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame
 Rheology find_rheology(const Model& model, const VesicleModel& vesicle, double time, Limit limit,
                        const VesicleState& state, const VesicleSolution& solution, const VesicleFields& fields);
 
-/// A field at a point of the parameter sphere. @param field  coefficients
+/// A field at a point of the parameter sphere.
+/// @param field  coefficients [n_coefficients]
 double value_at(const SpherePoint& point, const Vector& field);
 
 /// To assign the components of a vector to three columns by std::tie.
 inline std::tuple<double, double, double> components(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Values of a field where the line through a point along ±direction leaves the surface for good, along + first: what
-/// highest_on_line finds there; not a number where the line misses it.
+/// Values of a field at the outermost crossings of the surface with the line through a point along ±direction, + first,
+/// see highest_on_line; NaN if the line misses the surface.
 /// @param direction  not zero; along z where the transform knows axisymmetric fields alone
 /// @param fine       whose grid has as many longitudes as the degree asks for
 /// @param point      relative to the mean of the position
-/// @param position, field  coefficients
+/// @param position, field  coefficients, [n_coefficients x 3] and [n_coefficients]
 /// Accuracy: rounding; of V = z on turned ellipsoids to 1e-12 (tests/stepping/evaluation/diagnostics_test.cpp)
 std::array<double, 2> values_at_poles(const Vector3& direction, const SphereTransform& fine, const Vector3& point,
                                       const Matrix& position, const Vector& field);

@@ -13,13 +13,14 @@
 
 namespace vehd {
 
-/// What a step needs of one membrane besides its fields.
+/// Data of one membrane for a step, besides its fields.
 struct VesicleSolution {
   /// Surface and operators, these on the rank of the vesicle alone; null in an evaluation that no step starts from.
   std::shared_ptr<const Membrane> membrane;
   bool is_sphere = false;  ///< see uniform_tension_is_free
   Unknowns rate;           ///< dy/dt of material points, coefficients; a sphere moves as a rigid one
-  /// Of all explicit effects on the fluid, values on the upsampled grid; empty without, and on other ranks.
+  /// Force of all explicit effects on the fluid, values on the upsampled grid, [n_points x 3]; empty without them and
+  /// on other ranks.
   Matrix force_of_effects;
   RecycledSubspaces recycled;  ///< those of the state with what the tension solve adds
 };
@@ -36,7 +37,7 @@ struct SolvedFields {
   bool electric_inactive = false;  ///< see electric_inactive()
 };
 
-/// How exact the layers between membranes are next to those of each.
+/// Accuracy of the layers between membranes, from the settings for those of each.
 PairSettings pair_settings(const NumericalSettings& settings);
 
 /// Whose operators serve.
@@ -54,7 +55,7 @@ SolvedFields solve_fields(const Model& model, const Discretisation& discretisati
                           Instruments& instruments, const SolvedFields* previous = nullptr, Limit limit = Limit::after,
                           Shapes shapes = Shapes::of_state);
 
-/// The same with what a history tells of it and with checks of its operators.
+/// Solved fields with the quantities of a history and checks of the operators.
 struct Evaluation : SolvedFields {
   Diagnostics diagnostics;
 };
@@ -63,7 +64,7 @@ struct Evaluation : SolvedFields {
 Evaluation evaluate(const Model& model, const Discretisation& discretisation, const State& state,
                     Instruments& instruments, const Evaluation* previous = nullptr, Limit limit = Limit::after);
 
-/// What is left of an evaluation that no step starts from: operators are most of the memory that it takes.
+/// An evaluation without its operators, which take most of its memory, for states from which no step starts.
 Evaluation without_operators(Evaluation evaluation);
 
 }  // namespace vehd

@@ -14,7 +14,7 @@ struct StartPotential {
 
 /// One membrane at time 0.
 struct StartMembrane {
-  Matrix position;  ///< coefficients of x
+  Matrix position;  ///< coefficients of x, [n_coefficients x 3]
   StartPotential potential{};
   MembraneMaterial material{};  ///< coefficients of any degree
 };

@@ -4,7 +4,7 @@
 
 namespace vehd {
 
-/// What the discretised layers make of densities whose image is known.
+/// Errors of the discretised layers for densities whose potential is known.
 struct LayerCheck {
   /// Largest of |S[n]|/radius, which is zero on a closed surface because n drives no incompressible flow, and of
   /// |D[1] + ½|; of the layers that are there, 0 if neither is.
@@ -14,7 +14,7 @@ struct LayerCheck {
   double truncation = 0.0;
 };
 
-/// The check of whatever layers the membrane has.
+/// The check of the layers that the membrane has.
 /// Accuracy: below 1e-6 for exact layers on an asymmetric shape at p = 12, above 1e-5 at half the quadrature
 /// (tests/stepping/evaluation/operator_checks_test.cpp)
 LayerCheck check_layers(const Membrane& membrane);
@@ -24,15 +24,16 @@ LayerCheck check_layers(const Membrane& membrane);
 /// normals over the spacing √(4π J/N). Below 1 the grid does not see that they are two; it is infinite where no node
 /// faces another.
 /// @param nodes     of order p and all longitudes
-/// @param position  coefficients of x
+/// @param position  coefficients of x, [n_coefficients x 3]
 /// @param one_meridian_suffices  true where every meridian is the image of the first
 /// Accuracy: the distance of the parts of a dimpled disc to 5 % below and 0.15 spacings above
 /// (tests/stepping/evaluation/operator_checks_test.cpp)
 double separation(const SphereTransform& nodes, const Matrix& position, bool one_meridian_suffices);
 
-/// A step that brings two parts of a membrane into contact, or so near in one go that they could have passed through
-/// each other, is none. @throws ConvergenceError
+/// Rejects a step that brings two parts of a membrane into contact, or so much nearer at once that they could have
+/// passed through each other.
 /// @param before  their separation() at its start
+/// @throws ConvergenceError for such a step
 void require_apart(double separation, double before);
 
 }  // namespace vehd

@@ -25,14 +25,15 @@ struct SmallestGap {
   [[nodiscard]] double degree() const;
 };
 
-/// Of all vesicles of a state, and of the wall beside them.
+/// The smallest gap between the vesicles of a state, or of one and the wall beside them.
 /// @param discretisation  of the state
 /// Accuracy: that of nearest_points and nearest_to_wall
 SmallestGap find_smallest_gap(const State& state, const Discretisation& discretisation,
                               const std::optional<Wall>& wall);
 
-/// A step that brings two vesicles, or one and a wall, into contact, or so near in one go that they could have passed
-/// through each other, is none. @throws ConvergenceError that says which two, where and how near
+/// Rejects a step that brings two vesicles, or one and a wall, into contact, or so much nearer at once that they could
+/// have passed through each other.
+/// @throws ConvergenceError naming both, the place and the distance
 /// @param before   at the start of the step; infinite at the start of a run
 /// @param spacing  of the grids, over the radius
 /// @param frame    of the state: places are told in the laboratory

@@ -23,18 +23,19 @@ struct VesicleTask {
 /// where there is no charge and no field, see SolvedFields::electric_inactive.
 /// @param limit   which value of the field counts where it jumps
 /// @param solved  with the interaction; the iterations are added there
-/// @return  f_E of each, values on the upsampled grid; empty where it is zero and for vesicles of other ranks
+/// @return  f_E of each, values on the upsampled grid, [n_points x 3]; empty where it is zero and for vesicles of other
+///          ranks
 /// @throws ConvergenceError naming the solve that failed
 /// Source: paper Eqs. (4e), (12), (15), (32); docs/theory/electric.md
 std::vector<Matrix> solve_electric(const std::vector<VesicleTask>& tasks, double time, Limit limit,
                                    SolvedFields& solved);
 
-/// The conductance of a membrane that porates, and how fast its state s changes; V_m must be known.
+/// The conductance of a membrane that porates, and the rate of its state s; V_m must be known.
 void solve_poration(const VesicleTask& task, double time, Limit limit);
 
 /// The forces on all membranes of this rank and their velocities, with the tensions that keep them inextensible,
 /// Eqs. (2), (5), (27b).
-/// @param forces_electric  f_E of each, values on the upsampled grid; empty where it is zero
+/// @param forces_electric  f_E of each, values on the upsampled grid, [n_points x 3]; empty where it is zero
 /// @param limit            which value counts where a waveform jumps
 /// @param solved           with the interaction; the iterations are added there
 /// @throws ConvergenceError if the tensions do not converge

@@ -10,7 +10,7 @@
 
 namespace vehd {
 
-/// What a motion over dt makes of one membrane.
+/// One membrane after a motion over dt.
 struct Motion {
   SurfaceFields material;  ///< at the material points
   SurfaceFields arrived;   ///< at the nodes where the motion ends, see Arrival
@@ -33,10 +33,10 @@ using Arrival = std::function<SurfaceFields(const SurfaceFields& material)>;
 /// Where a motion starts from.
 struct MotionStart {
   SurfaceFields fields;  ///< x and λ; V_m is that of the end
-  Matrix velocity;       ///< before the implicit increments, coefficients
+  Matrix velocity;       ///< before the implicit increments, [n_coefficients x 3]
 };
 
-/// What stays the same for all motions of one membrane in a step.
+/// Data common to all motions of one membrane in a step.
 struct MotionContext {
   const FlowParameters& parameters;
   const NumericalSettings& settings;
@@ -53,7 +53,7 @@ struct MotionContext {
 /// is answered for as well.
 /// @param flow        the linearised system of this membrane and this dt
 /// @param iterations  grows by those of the flow
-/// @throws ConvergenceError where there is no such motion
+/// @throws ConvergenceError if no such motion is found
 /// Accuracy: area and volume to the tolerance of the constraint, 1e-9 by default
 /// (tests/stepping/time/step_control_test.cpp)
 ///

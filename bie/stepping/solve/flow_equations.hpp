@@ -70,34 +70,36 @@ class FlowEquations {
                                                                             : membrane().fine;
   }
 
-  /// Scalars of a vector of unknowns.
+  /// Scalars, coefficients, of a vector of unknowns, [size()].
   [[nodiscard]] FlowScalars unknowns(const Vector& v) const;
-  /// The other way.
+  /// The vector of unknowns, [size()], of scalars; the inverse of unknowns().
   [[nodiscard]] Vector over_scales(const FlowScalars& unknowns) const;
   /// λ to start from, with the mean that is known with undulations; c is zero.
-  /// @param tension  or empty
+  /// @param tension  λ, coefficients [n_coefficients], or empty
   [[nodiscard]] FlowScalars guess(const Vector& tension) const;
-  /// A vector of unknowns with the uniform part of λ left out.
+  /// A vector of unknowns, [size()], with the uniform part of λ left out.
   [[nodiscard]] Vector without_mean(Vector unknowns) const;
 
-  /// f, values on the upsampled grid; empty without unknowns.
+  /// f on the fluid per area, values on the upsampled grid, [n_points x 3]; empty without unknowns.
   [[nodiscard]] Matrix force(const FlowScalars& unknowns) const;
-  /// Left sides of the equations as rows, without scales.
-  /// @param velocity  that the unknowns make, coefficients
+  /// Left sides of the equations as rows, [size()], without scales.
+  /// @param velocity  u under the unknown forces, coefficients [n_coefficients x 3]
+  /// @param unknowns  [size()]
   [[nodiscard]] Vector left_side(const Matrix& velocity, const Vector& unknowns) const;
-  /// Those of a given velocity.
+  /// Left sides of a given velocity, [n_coefficients x 3].
   [[nodiscard]] Vector left_side(const Matrix& velocity) const { return left_side(velocity, Vector::Zero(size())); }
-  /// Right sides as rows.
+  /// Right sides as rows, [size()].
   [[nodiscard]] Vector rows(const FlowScalars& right_side) const;
-  /// Unknowns from rows: exact on the sphere of the same area, for the actual κ_B, both viscosities and dt.
+  /// Unknowns from rows, [size()] both: exact on the sphere of the same area, for the actual κ_B, both viscosities and
+  /// dt.
   [[nodiscard]] Vector approximate_inverse(const Vector& rows) const;
 
-  /// Rows of an image of this membrane.
+  /// Rows, [size()], of an image of this membrane.
   [[nodiscard]] Vector image(const ImageOfFields& image, const Vector& rows) const;
 
   /// (h, λ) ↦ (Hop(u), J ∇_γ·u) of RecycledSubspaces as unknowns ↦ left sides.
   [[nodiscard]] RecycledSubspace in_system(const RecycledSubspace& recycled) const;
-  /// The other way.
+  /// The inverse of in_system.
   [[nodiscard]] RecycledSubspace in_scalars(const RecycledSubspace& recycled) const;
 
  private:

@@ -35,7 +35,8 @@ class FlowSystem {
     std::vector<Matrix> velocities;
     double size_of_rhs = 0.0;  ///< see RecycledGcr
   };
-  /// @param right_sides  FlowEquations::rows of each membrane
+  /// Solves the equations of all membranes.
+  /// @param right_sides  FlowEquations::rows of each membrane, [size()] of its equations
   /// @param tolerance    of the preconditioned residual, relative to the preconditioned right-hand side
   /// @param least_size   see RecycledGcr
   Solution solve(const std::vector<Vector>& right_sides, double tolerance, double least_size = 0.0);
@@ -47,7 +48,8 @@ class FlowSystem {
   [[nodiscard]] const std::vector<FlowEquations>& equations() const { return equations_; }
   /// Norm of unknowns over their scales, uniform tensions left out.
   [[nodiscard]] double size_of(const std::vector<FlowScalars>& unknowns) const;
-  /// Gives all ranks the rows of all membranes, and images those that follow from their originals. Collective.
+  /// Gives all ranks the rows of all membranes, [size()] of their equations, and images those that follow from their
+  /// originals. Collective.
   void gather(std::vector<Vector>& rows) const;
   /// Directions that its own solves have found, of each membrane, in the form of RecycledSubspaces.
   [[nodiscard]] std::vector<RecycledSubspace> found() const;

@@ -20,7 +20,7 @@ struct SphereMotion {
   Matrix flow;                             ///< displacement within the sphere, before the rotation, [n_points x 3]
 };
 
-/// What rigid_sphere_velocity does in dt, its rotation a finite one that strains nothing however long the step.
+/// The motion by rigid_sphere_velocity during dt, with a finite rotation, which strains nothing however long the step.
 /// @param velocity  coefficients, [n_coefficients x 3]
 /// Accuracy: exact for constant velocities; spheres fall as Stokes says and drift in a tube as Faxén says to 1e-8 at
 /// every time order (tests/stepping/solve/rigid_sphere_test.cpp)
@@ -39,7 +39,7 @@ SurfaceFields moved_sphere(const SurfaceFields& start, const Membrane& sphere, c
 /// The sphere after the motion, at nodes that are only translated: each node takes over the fields of the material
 /// point that has come to it. The surface is then the translated one of the start, however far its points turn and
 /// flow.
-/// @param position  at the start of the step, coefficients
+/// @param position  at the start of the step, coefficients [n_coefficients x 3]
 /// @param material  after the motion, at the material points
 /// @throws ConvergenceError where the flow within the sphere is too far for one step
 SurfaceFields at_translated_nodes(const Matrix& position, const Membrane& sphere, const SphereMotion& motion,

@@ -22,11 +22,12 @@ struct SphereFlow {
 /// Source: the spectrum that Veerapaneni et al. 2011 precondition with
 Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int n);
 
-/// Its entry of h alone for the degree after the last of the position, which has V of it and no W, and is not bent.
+/// The entry of h alone in sphere_flow_block for the degree after the last of the position, which has V and no W and is
+/// not bent.
 double unresolved_curvature(const SphereFlow& sphere, int n);
 
-/// What holds a sphere in shape, degree n: rows u·n and J ∇_γ·u, columns a force c n and λ. Without bending and dt.
-/// Accuracy: closed form; solves on spheres that it preconditions take few iterations
+/// The equations that hold a sphere in shape, degree n: rows u·n and J ∇_γ·u, columns a force c n and λ. Without
+/// bending and dt. Accuracy: closed form; solves on spheres that it preconditions take few iterations
 /// (tests/stepping/solve/tension_solve_test.cpp)
 Eigen::Matrix2d rigid_sphere_block(const SphereFlow& sphere, int n);
 

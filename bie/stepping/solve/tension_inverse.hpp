@@ -7,8 +7,8 @@
 
 namespace vehd {
 
-/// Harmonics of one degree at the nodes of the coarsest grid that carries them: what the matrices of all membranes of
-/// that degree have in common.
+/// Harmonics of one degree at the nodes of the coarsest grid that carries them, common to the matrices of all membranes
+/// of that degree.
 struct TensionGrid {
   SphereTransform transform;
   SphereDerivatives harmonics;  ///< [n_points x n_coefficients]
@@ -29,10 +29,10 @@ class TensionInverse {
  public:
   /// @param one            not a sphere
   /// @param entries        coefficients that λ can have, ascending from the mean
-  /// @param mean_response  a tenth of it is the least response to a uniform tension that is believed
+  /// @param mean_response  a tenth of it is the least response to a uniform tension that is assumed
   TensionInverse(const FlowMembrane& one, const TensionGrid& grid, std::vector<Index> entries, double mean_response);
 
-  /// λ from J ∇_γ·u, their entries.
+  /// Entries of λ, [entries], from those of J ∇_γ·u, likewise.
   [[nodiscard]] Vector apply(const Vector& divergence) const;
 
  private:

@@ -8,11 +8,11 @@
 
 namespace vehd {
 
-/// Tensions that keep all membranes inextensible, with what they make of the flow.
+/// Tensions that keep all membranes inextensible, with their forces and velocities.
 struct SolvedTensions {
-  std::vector<Vector> tension;     ///< λ of each, coefficients; empty where the membrane may extend
-  std::vector<Matrix> force;       ///< f_λ on the fluid, values on the upsampled grid; empty likewise
-  std::vector<Matrix> velocities;  ///< u + w of the membranes, coefficients
+  std::vector<Vector> tension;     ///< λ of each, [n_coefficients]; empty where the membrane may extend
+  std::vector<Matrix> force;       ///< f_λ on the fluid, upsampled grid, [n_points x 3]; empty likewise
+  std::vector<Matrix> velocities;  ///< u + w of the membranes, [n_coefficients x 3]
   /// Recycled by the next solve: of each membrane its rows of the map of all, λ ↦ J ∇_γ·u; the columns are in common.
   /// Empty of many membranes, and where one is a sphere.
   std::vector<RecycledSubspace> recycled;
@@ -31,8 +31,9 @@ struct SolvedTensions {
 /// Of several ranks, see Interaction, each needs the forces on its own membranes. It gets forces and velocities of
 /// these, and the tensions and recycled directions of all.
 /// @param is_sphere   of each membrane, see uniform_tension_is_free
-/// @param weighted    of J f, f the other forces, as MembraneFlow::velocities has them; likewise the background
-/// @param start       λ of each to start from; empty ones are zero. Their flow is found together with w.
+/// @param weighted    of J f, f the other forces, [n_coefficients x 3], see MembraneFlow::velocities; likewise the
+///                    background
+/// @param start       λ of each to start from, [n_coefficients]; empty ones are zero. Their flow is found with w.
 /// @param recycled    SolvedTensions::recycled on membranes that were nearly the same; counts if all of them have it
 /// @param tolerance   of the preconditioned residual, over the preconditioned ∇_γ·w or, from a start, over the tensions
 ///                    without their means, of which it is the error

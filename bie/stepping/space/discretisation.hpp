@@ -49,7 +49,7 @@ class MembraneSpace {
   /// Transform between the upsampled grid and the degree to which implicit steps know changes of H, see
   /// FlowOptions: one more than p, as positions of degree p have normal parts of the next degree.
   [[nodiscard]] const SphereTransform& curvature_transform() const { return curvature_; }
-  /// The same symmetries in fields of that degree.
+  /// Symmetries of fields of that degree.
   [[nodiscard]] const SymmetrySubspace& curvature_subspace() const { return curvature_subspace_; }
   /// Singular quadrature about the targets.
   [[nodiscard]] const RotatedQuadrature& quadrature() const { return quadrature_; }
@@ -84,7 +84,7 @@ class Discretisation {
   Discretisation(const NumericalSettings& settings, const Symmetry& symmetry,
                  const std::vector<ResolutionLevel>& vesicles, const Ranks& ranks = {});
 
-  /// The same but for one vesicle.
+  /// This discretisation with another level for one vesicle.
   [[nodiscard]] Discretisation with(std::size_t vesicle, const ResolutionLevel& level) const;
 
   [[nodiscard]] const NumericalSettings& settings() const { return settings_; }
@@ -94,7 +94,7 @@ class Discretisation {
   [[nodiscard]] std::size_t n_vesicles() const { return vesicles_.size(); }
   /// Which vesicle has its operators on which rank.
   [[nodiscard]] const Shares& shares() const { return shares_; }
-  /// What layers between the vesicles need at every step and what takes little memory of it.
+  /// Transforms that layers between the vesicles need at every step, as far as they take little memory.
   [[nodiscard]] const SharedTransforms& pair_transforms() const { return pair_transforms_; }
   /// Is solving for one state too little for all threads, so that they had better have a state each? Never where ranks
   /// wait for each other.
@@ -113,10 +113,11 @@ class Discretisation {
 
 /// The membrane at a position with the operators of the selection; it may outlive the space. A viscosity contrast takes
 /// the place of the double layer that it is made of.
+/// @param position  coefficients, [n_coefficients x 3]
 Membrane membrane_at(const MembraneSpace& space, const Matrix& position, const LayerSelection& selection,
                      double viscosity_ratio, Instruments& instruments);
 
-/// What differs from place to place, as a Membrane has it.
+/// Spatially varying properties as values on the upsampled grid, for a Membrane.
 /// @param coefficients  of the degree of the space
 MembraneMaterial material_at(const MembraneSpace& space, const MembraneMaterial& coefficients);
 

@@ -30,13 +30,13 @@ SphereVectors sliding_part(const SphereTransform& fine, const Surface& surface, 
 class GridMove {
  public:
   /// @param fine          degree p ↔ upsampled grid; must outlive it
-  /// @param displacement  dt u, coefficients: the last move of the material
-  /// @param position      of the material points
+  /// @param displacement  dt u, the last move of the material, coefficients [n_coefficients x 3]
+  /// @param position      of the material points, likewise
   GridMove(const SphereTransform& fine, const Matrix& displacement, const Matrix& position);
 
-  /// Fields at the material points, at the new nodes.
+  /// Fields given at the material points, at the new nodes.
   [[nodiscard]] SurfaceFields carried(const SurfaceFields& fields) const;
-  /// Coefficients of any others likewise, every column by itself.
+  /// Other fields at the new nodes, coefficients [n_coefficients x n_fields].
   [[nodiscard]] Matrix carried(const Matrix& columns) const;
 
  private:
@@ -45,6 +45,7 @@ class GridMove {
 };
 
 /// The fields of a surface carried by the move of its grid.
+/// @param displacement  see GridMove, [n_coefficients x 3]
 SurfaceFields remap(const SphereTransform& fine, const Matrix& displacement, const SurfaceFields& fields);
 
 }  // namespace vehd

@@ -39,7 +39,7 @@ struct VesicleFields {
   Vector free_charge_out{};  ///< q_e = ε_e E_e − C_m V_m
 };
 
-/// V_m of a membrane at one time, coefficients; empty without electricity and in an averaged field.
+/// V_m of a membrane at one time, coefficients [n_coefficients]; empty without electricity and in an averaged field.
 inline const Vector& transmembrane_potential(const SurfaceFields& membrane, const VesicleFields& fields) {
   return fields.potential.size() > 0 ? fields.potential : membrane.transmembrane_potential;
 }

@@ -20,10 +20,10 @@ struct TensionIntegrals {
   double magnitude = 0.0;  ///< ∫|λ| dA
 };
 
-/// F = dy/dt at one node, with what is solved for at once there and a history tells of.
+/// F = dy/dt at one node, with the instantaneous unknowns there that a history records.
 struct Rate {
   struct Instantaneous {
-    Matrix charge;               ///< q, or its amplitude, coefficients; empty without electricity
+    Matrix charge;               ///< q or its amplitude, [n_coefficients x 1 or 2]; empty without electricity
     Matrix potential_amplitude;  ///< of V_m in an averaged field; empty without
     TensionIntegrals tension;
   };
@@ -31,7 +31,7 @@ struct Rate {
   std::vector<Instantaneous> instantaneous;
 };
 
-/// Of what was solved for at a node.
+/// The rate from the fields solved at a node.
 Rate rate_of(const SolvedFields& solved);
 
 /// How two rates of one node differ in what is solved for at once, the largest of all vesicles.
@@ -61,7 +61,7 @@ struct VisibleDifference {
   double potential = 0.0;  ///< of V_m at material points, over its size, and of the state of poration
 };
 
-/// What a node is for: within a step fields stay with the material; at its end they are carried to new nodes.
+/// Purpose of a node: within a step fields stay with the material; at its end they are carried to new nodes.
 enum class NodeEnd { material, remapped };
 
 /// A step of the paper's semi-implicit scheme from the start of a step.
@@ -111,7 +111,7 @@ class StepOperations {
 
   /// F at the start.
   [[nodiscard]] Rate rate() const;
-  /// F at nodes, the forcing just before a discontinuity there.
+  /// F at nodes, one Rate each, with the forcing just before a discontinuity there.
   std::vector<Rate> rates(std::span<const NodeSolution> nodes);
   Rate rate(const NodeSolution& node) { return std::move(rates({&node, 1}).front()); }
 
@@ -125,13 +125,14 @@ class StepOperations {
   /// constraint holds but for what its error leaves. Only where `can_extrapolate`.
   /// Accuracy: of order one more than there are times in the past (tests/stepping/time/past_test.cpp)
   [[nodiscard]] NodeSolution extrapolated(double time) const;
-  /// Whether a step of this size is short enough for that: longest_extrapolation times the last one.
+  /// Whether a step of this size is short enough to extrapolate: at most longest_extrapolation times the last one.
   [[nodiscard]] bool can_extrapolate(double dt) const;
   /// Makes the start and the nodes before the last the past of the state at the last one; collective. A rigid sphere
   /// turns on the spot, which no polynomial follows as exactly as its own motion: with one there is no past.
   /// @param nodes  the last one remapped
   void store_past(const std::vector<NodeSolution>& nodes, State& state) const;
 
+  /// Corrections of several nodes, see ImplicitSolve.
   /// @param solves  of different sizes
   std::vector<NodeSolution> implicit_solves(const std::vector<ImplicitSolve>& solves);
   NodeSolution implicit_solve(const ImplicitSolve& solve) { return std::move(implicit_solves({solve}).front()); }
@@ -143,7 +144,7 @@ class StepOperations {
   /// Largest difference of two solutions of one node, of x over the radius and of V_m over its size.
   [[nodiscard]] double difference(const NodeSolution& a, const NodeSolution& b) const;
   [[nodiscard]] VisibleDifference visible_difference(const NodeSolution& a, const NodeSolution& b) const;
-  /// See there.
+  /// The free function of this name for the model of the step.
   [[nodiscard]] InstantaneousDifference instantaneous_difference(const Rate& a, const Rate& b) const {
     return vehd::instantaneous_difference(model_, at_start_, a, b);
   }

@@ -35,7 +35,7 @@ Vector integration_weights(const std::vector<double>& points, double c);
 /// Accuracy: 1e-13 for polynomials of its degree (tests/stepping/time/time_rules_test.cpp)
 Vector weights_from_zero(const Vector& places, double x);
 
-/// What an integral with integration_weights lacks of that of x^k/k!, the factor of f^(k) in its error.
+/// Error of integration_weights for the integral of x^k/k!, k = power: the factor of f^(k) in the error of an integral.
 double integration_error(const std::vector<double>& points, double c, int power);
 
 /// Weights of values at these points for a derivative of the polynomial through them, at the mean of the points,
