@@ -43,7 +43,7 @@ struct InteractingMembrane {
 /// Source: paper Eqs. (6), (8), (9) with source and target on different membranes; no_slip_flow
 class Interaction {
  public:
-  /// Of one membrane alone in unbounded fluid: it is empty, and this process has the membrane.
+  /// One membrane alone in unbounded fluid: the interaction is empty, and this process has the membrane.
   Interaction();
   /// @param settings     memory for rows is that of all
   /// @param instruments  targets of all pairs are counted there, of the membranes of this rank

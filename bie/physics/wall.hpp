@@ -17,7 +17,7 @@ struct Wall {
   WallFlow flow = WallFlow::none;     ///< no slip, or a free surface that stays flat
   WallField field = WallField::none;  ///< no current through it, or a constant potential
 
-  /// Of a point above the wall, > 0 in the fluid.
+  /// Height of a point above the wall, > 0 in the fluid.
   [[nodiscard]] double height(const Vector3& x) const { return normal.dot(x - point); }
   /// I − 2 n nᵀ, which takes vectors to their mirror images.
   [[nodiscard]] Matrix3 mirror() const { return Matrix3::Identity() - 2.0 * normal * normal.transpose(); }

@@ -20,15 +20,15 @@ struct SweepAxis {
   std::vector<SweepTick> ticks;
 };
 
-/// Of values of a key as its table shows them ("0.5", "10 kHz", "shear"). Numbers of one unit stand where they belong,
-/// by their logarithms if asked for; anything else side by side.
+/// Axis of the values of a key as its table shows them ("0.5", "10 kHz", "shear"). Numbers of one unit are placed by
+/// value, or by logarithm if requested; other values side by side.
 SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>& values, bool is_logarithmic);
 
-/// The same for cells of one size, one for each value in their order. Many values with even steps, or even steps of
+/// Axis of cells of one size, one for each value in their order. Many values with even steps, or even steps of
 /// their logarithms, have ticks at round numbers.
 SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& values);
 
-/// Of numbers with some room at both ends; NaN has no place.
+/// Axis of numbers with some room at both ends; NaN has no place.
 SweepAxis axis_of_numbers(const std::string& label, const std::vector<double>& values);
 
 /// A page of line plots of one size, two beside each other.

@@ -40,7 +40,7 @@ class SymmetricBlocks {
   [[nodiscard]] double* column(Index out) { return values_.data() + starts_[static_cast<std::size_t>(out)]; }
   /// Coefficients whose densities the column of `out` has, the highest of the last degree.
   [[nodiscard]] Index n_in(Index out) const { return ends_[static_cast<std::size_t>(out)]; }
-  /// Of a block in a column.
+  /// Place of a block's entry in a column.
   [[nodiscard]] static Index place(int block, Index in) {
     return (in / kGroup * kBlocks + block) * kGroup + in % kGroup;
   }

@@ -54,16 +54,18 @@ struct Checkpoint {
 /// Replaces the file in one step. @throws OutputError
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-/// Of a checkpoint that another vehd wrote.
+/// The checkpoint has the schema of another version of vehd.
 struct OtherSchemaVersion : InputError {
   using InputError::InputError;
 };
 
+/// Reads a checkpoint.
 /// @throws InputError if the file is truncated or altered, OtherSchemaVersion
 /// Accuracy: exact; a resumed run takes the same steps bit for bit (tests/app/resume_test.cpp)
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
-/// The same from the HDF5 image that its seal has vouched for. @throws InputError
+/// A checkpoint from an HDF5 image whose seal was verified.
+/// @throws InputError
 Checkpoint checkpoint_of(const std::string& image, const std::string& name);
 
 }  // namespace vehd

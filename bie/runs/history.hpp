@@ -44,7 +44,7 @@ struct HistoryKind {
   bool wall = false;                        ///< has columns of a wall
 };
 
-/// Of the vesicles of a scene.
+/// The kind of history.csv of a scene.
 HistoryKind history_kind(const Scene& scene);
 /// The kind with a row for each vesicle.
 HistoryKind of_each_like(HistoryKind kind);

@@ -31,11 +31,11 @@ class WorkMeter {
   WorkMeter(RunTotals before, const Instruments& instruments, Ranks ranks)
       : before_(std::move(before)), instruments_(instruments), ranks_(std::move(ranks)) {}
 
-  /// Of this session.
+  /// Seconds of this session.
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  /// Of all sessions; kernels are those of all ranks, seconds of this one. Collective.
+  /// Work of all sessions; kernels are those of all ranks, seconds of this one. Collective.
   [[nodiscard]] RunTotals totals() const;
 
  private:
@@ -64,7 +64,8 @@ class Simulation {
   [[nodiscard]] bool at_end() const { return evolution_.state().time >= scene_.numerics.end_time || at_rest(); }
   /// One accepted step. @throws ConvergenceError where none is acceptable; everything stays as it is
   void step() { step(events_); }
-  /// The same towards other times than those of the scene. @throws ConvergenceError
+  /// One accepted step towards other times than those of the scene.
+  /// @throws ConvergenceError as step()
   void step(const EventTimes& events);
   /// See Evolution::allow_steps.
   void allow_steps(double times) { evolution_.allow_steps(times); }

@@ -39,13 +39,13 @@ struct Dimension {
   std::string_view name;
   std::array<int, 4> powers;  ///< of the reference length, time, viscosity and potential
   std::vector<Unit> units;    ///< the first is the SI unit
-  /// Of the unit with a prefix that results have: 2 in um^2; 0: the SI unit as it is; negative: no result has it.
+  /// Power of the unit with a prefix in results: 2 in um^2; 0: the SI unit as it is; negative: no result has it.
   int result_power = -1;
 
   [[nodiscard]] std::string_view si_unit() const { return units.front().symbol; }
   /// A product may lack its space, as in "mPas". @return nullptr if there is no such unit
   [[nodiscard]] const Unit* find(std::string_view symbol) const;
-  /// Of its units.
+  /// Symbols of its units.
   [[nodiscard]] std::vector<std::string_view> symbols() const;
   /// "m, mm, um, nm"
   [[nodiscard]] std::string accepted() const;

@@ -18,10 +18,10 @@ std::size_t n_vesicles(const Scene& scene);
 
 /// The scene of one of its vesicles, as if there were no other.
 Scene alone(const Scene& scene, std::size_t vesicle);
-/// Of all vesicles; that of a scene of one is the scene itself.
+/// The scenes of all vesicles, each alone; for a scene of one the scene itself.
 std::vector<Scene> each_alone(const Scene& scene);
 
-/// The other way.
+/// One scene of several vesicles, the inverse of each_alone.
 /// @param vesicles  scenes of one each, which differ in keys of a vesicle alone
 /// @param names     one for each; a single vesicle has none
 Scene together(const std::vector<Scene>& vesicles, const std::vector<std::string>& names);
@@ -29,14 +29,14 @@ Scene together(const std::vector<Scene>& vesicles, const std::vector<std::string
 /// Names of the vesicles; empty where there is only one.
 std::vector<std::string> vesicle_names(const Scene& scene);
 
-/// For what knows one vesicle alone.
+/// For commands that accept one vesicle only.
 /// @param file  of the scene, for the message
 /// @param who   "vehd mesh" @throws InputError if there are several
 void require_one_vesicle(const Scene& scene, const std::filesystem::path& file, const std::string& who);
 
 /// May every vesicle have a value of its own for this key?
 bool is_of_vesicle(std::string_view table, std::string_view key);
-/// The same of a key of the table.
+/// is_of_vesicle of a key of the key table.
 bool is_of_vesicle(const KeyDescription& key);
 /// The tables that have such keys, in the order of scene_tables().
 const std::vector<std::string_view>& vesicle_tables();

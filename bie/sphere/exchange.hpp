@@ -55,7 +55,7 @@ class Exchange {
   [[nodiscard]] int fold() const { return maps_.back().of_fields.map.fold; }
   /// All maps except the identity.
   [[nodiscard]] std::vector<Isometry> maps() const;
-  /// Of each body the one that it is an image of, or itself; empty where there are no images.
+  /// Original of each body, which is itself if it is no image; empty without images.
   [[nodiscard]] const std::vector<std::size_t>& originals() const { return originals_; }
   [[nodiscard]] std::size_t original(std::size_t body) const { return any() ? originals_[body] : body; }
   [[nodiscard]] bool is_image(std::size_t body) const { return original(body) != body; }

@@ -68,8 +68,8 @@ void rename_file(const std::filesystem::path& from, const std::filesystem::path&
 /// @throws OutputError
 void exchange_files(const std::filesystem::path& path, const std::filesystem::path& other);
 
-/// The same in steps between which `path` always stands for one of the two files; a kill can leave `other` missing and
-/// a hidden link to the file that was `path`.
+/// Exchanges two names in steps between which `path` always names one of the two files; a kill can leave `other`
+/// missing and a hidden link to the file that was `path`.
 /// @throws OutputError
 void exchange_by_renames(const std::filesystem::path& path, const std::filesystem::path& other);
 

@@ -21,7 +21,7 @@ class Progress {
   /// @param share  of the work that is done, 0 ... 1
   /// @param text   beside it, one line
   void update(double share, const std::string& text);
-  /// The same where another piece of work begins that may take long: a bar shows it at once.
+  /// Update at the beginning of a piece of work that may take long: a bar shows it at once.
   void begin(double share, const std::string& text);
   /// Draws the last state whatever the interval, and leaves the line.
   void finish();

@@ -36,12 +36,15 @@ struct RunResult {
   std::map<std::string, std::string, std::less<>> final_values{};
 };
 
-/// Of a session that has written its summary, without seconds. @throws InputError if the history cannot be read
+/// Result of a session that has written its summary, without seconds.
+/// @throws InputError if the history cannot be read
 RunResult result_of(const RunPaths& paths, const nlohmann::json& summary);
-/// Writes result.json in the directory of a run, in one step. @throws OutputError
+/// Writes result.json in the directory of a run, in one step.
+/// @throws OutputError
 void write_result(const std::filesystem::path& directory, const RunResult& result);
-/// nullopt where there is none, or none that can be read.
+/// The content of result.json; nullopt if there is none that can be read.
 std::optional<RunResult> read_result(const std::filesystem::path& directory);
+/// Whether read_result finds a result.
 bool has_result(const std::filesystem::path& directory);
 
 /// Rows of a table by how their runs ended.

@@ -6,7 +6,7 @@
 
 namespace vehd {
 
-/// What the volume within a closed surface says of where it is and how it is stretched.
+/// Centroid and second moments of the volume within a closed surface.
 struct VolumeMoments {
   Vector3 centroid = Vector3::Zero();
   /// ∫ (x − centroid)(x − centroid)ᵀ dV / ∫ dV: a²/5 along the semi-axis a of an ellipsoid.
@@ -19,7 +19,7 @@ struct VolumeMoments {
   [[nodiscard]] double aspect_ratio_along(const Vector3& direction) const;
 };
 
-/// Of what a surface encloses.
+/// The moments of the volume within a surface.
 /// Accuracy: spectral; axes of ellipsoids to 1e-12 (tests/stepping/evaluation/volume_moments_test.cpp)
 /// Source: Gauss's theorem
 VolumeMoments volume_moments(const Surface& surface);

@@ -6,11 +6,11 @@
 #include "bie/physics/model.hpp"
 #include "bie/stepping/state/state.hpp"
 
-/// What a step is composed of: everything here follows from which effects the model has.
+/// Composition of a step: everything here follows from the effects of the model.
 namespace vehd {
 
-/// The effects on all vesicles, one after the other: those of the effect_table, implicit ones first, and whatever else
-/// the model lists.
+/// The effects on all vesicles, one after the other: those of the effect_table, implicit ones first, then the others
+/// that the model lists.
 std::vector<MadeEffect> effects_on_all(const Model& model);
 /// The effects on one vesicle that enter explicitly.
 std::vector<std::shared_ptr<const ExplicitEffect>> explicit_effects(const Model& model, const VesicleModel& vesicle);

@@ -56,7 +56,7 @@ struct PorationLoad {
   Vector3 place = Vector3::Zero();                         ///< where on the membrane
 };
 
-/// What history.csv tells of one membrane at one time. Of an averaged field V_m and q are magnitudes of amplitudes.
+/// Values of history.csv for one membrane at one time. In an averaged field V_m and q are magnitudes of amplitudes.
 struct VesicleDiagnostics {
   double area = 0, volume = 0, reduced_volume = 0;
   double bending_energy_scaled = 0;  ///< ∫H² dA

@@ -44,12 +44,12 @@ Frame find_frame(const Model& model, const State& state);
 /// symmetry_text with the axes by their names in the laboratory, and where they meet if that is not its origin.
 std::string symmetry_text(const Symmetry& symmetry, const Frame& frame);
 
-/// What the laboratory shows, in the frame; at an origin other than zero all effects but the wall must be the same
+/// A model of the laboratory in the frame; at an origin other than zero all effects but the wall must be the same
 /// everywhere.
 Model in_frame(const Frame& frame, Model of_laboratory);
 /// A state as it is in the frame.
 State in_frame(const Frame& frame, State of_laboratory);
-/// The other way.
+/// A state of the frame in the laboratory.
 State in_laboratory(const Frame& frame, State of_frame);
 /// Fields as they are in the laboratory.
 Fields in_laboratory(const Frame& frame, const Fields& of_frame);

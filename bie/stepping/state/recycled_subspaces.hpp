@@ -42,8 +42,8 @@ struct SentScalars {
 void visit_members(const SentScalars& sent, Packing& packing);
 void visit_members(SentScalars& sent, Unpacking& unpacking);
 
-/// What velocity solves recycle, in the coefficients that the symmetry leaves; null: nothing. Directions that served
-/// one step serve the next, whose operators are nearly the same.
+/// Samples that velocity solves recycle, in the coefficients that the symmetry leaves; null: none. Directions of one
+/// step serve the next, whose operators are nearly the same.
 struct RecycledSubspaces {
   std::shared_ptr<const RecycledScalars> tension;  ///< λ ↦ J ∇_γ·u
   std::shared_ptr<const RecycledScalars> flow;     ///< (h, λ) ↦ (Hop(u), J ∇_γ·u), see FlowScalars
@@ -51,8 +51,8 @@ struct RecycledSubspaces {
   std::int64_t pause = 0;                          ///< steps to go until `flow` is kept again
 };
 
-/// What is recycled after a step. On grids with poles in bad places the flow takes more iterations with recycling than
-/// without: where it took more than twice as many as the last step without, the next ones go without it.
+/// The samples to recycle after a step. On grids with poles in bad places the flow takes more iterations with recycling
+/// than without: where it took more than twice as many as the last step without, the next ones go without it.
 /// @param flow        that the step leaves for velocity solves
 /// @param iterations  of the step
 RecycledSubspaces after_step(const RecycledSubspaces& before, std::shared_ptr<const RecycledScalars> flow,

@@ -6,8 +6,8 @@
 
 namespace vehd {
 
-/// What vesicles do to the suspension that they are in, at one time. Particle stresses are times the volume of the
-/// suspension,
+/// Contribution of vesicles to the stress and the dipole of a suspension, at one time. Particle stresses are times the
+/// volume of the suspension,
 ///   −∫ ½(f xᵀ + x fᵀ) dA + μ(Λ − 1) ∫ (v nᵀ + n vᵀ) dA,
 /// f a force on the fluid, Λ the ratio of the viscosities, x from `centre`: forces that do not add up to zero have no
 /// stress of their own, only one about a point.
@@ -39,7 +39,7 @@ struct Rheology {
   [[nodiscard]] double intrinsic_viscosity() const;
 };
 
-/// Of all vesicles together, about the centroid of their volume.
+/// The sum over all vesicles, about the centroid of their volume.
 /// Source: Batchelor 1970
 Rheology together(const std::vector<Rheology>& vesicles);
 

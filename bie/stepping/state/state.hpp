@@ -43,17 +43,17 @@ struct State {
       past_times{};  ///< of the nodes of the last step before its end, less `time`: ascending; empty: none are stored
 };
 
-/// The same without the nodes of the last step: the next one begins with first-order steps.
+/// A state without the nodes of the last step: the next one begins with first-order steps.
 inline State without_past(State state) {
   state.past_times = {};
   for (VesicleState& vesicle : state.vesicles) vesicle.past = {};
   return state;
 }
 
-/// The same fields in degrees up to `order`: cut, or continued by zeros. A membrane of another degree than before has
-/// nothing to recycle, see RecycledScalars.
+/// The fields of a vesicle in degrees up to `order`: truncated, or padded with zeros. A membrane of another degree than
+/// before has nothing to recycle, see RecycledScalars.
 VesicleState resized(VesicleState vesicle, int order);
-/// Fields of one membrane likewise.
+/// Solved fields of a membrane in degrees up to `order`.
 VesicleFields resized(VesicleFields fields, int order);
 /// Every membrane in degrees up to `order`.
 State resized(State state, int order);

@@ -39,7 +39,7 @@ class Collocation {
   [[nodiscard]] std::vector<VisibleDifference> derivatives() const;
   /// Node m after a correction with the rates as they are: y + (1 − d_m dt L)⁻¹ (y_0 + dt Σ_j q_mj F_j − y).
   [[nodiscard]] NodeSolution corrected(std::size_t m, NodeEnd end) const;
-  /// The same of all nodes.
+  /// All nodes after such a correction.
   /// @param end  of the last one
   [[nodiscard]] std::vector<NodeSolution> all_corrected(NodeEnd end) const;
   /// y at any time within the step, on its material points, before a correction: the predictor at this time and the
@@ -49,7 +49,7 @@ class Collocation {
   /// A solution at any time within the step after a correction with these rates: y + (1 − d dt L)⁻¹ (y_0 + ∫F dt − y),
   /// F being the polynomial through the rates at the start and at every node, and d that of the last node.
   [[nodiscard]] NodeSolution corrected(const NodeSolution& y, NodeEnd end) const;
-  /// The same with the rate at y as well, which costs an evaluation.
+  /// `corrected` with the rate at y as well, which costs an evaluation.
   [[nodiscard]] NodeSolution corrected_with_rate(const NodeSolution& y, NodeEnd end) const;
 
  private:

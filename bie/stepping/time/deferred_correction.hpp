@@ -42,7 +42,7 @@ class Corrections {
 
   /// Estimated error after correction j = 1, 2, …, made or yet to be made; 0 if there is none.
   [[nodiscard]] double error_after(std::size_t j) const { return error_after(j, contraction()); }
-  /// The same if each correction to come contracts by this.
+  /// error_after if each later correction contracts by `ratio`.
   [[nodiscard]] double error_after(std::size_t j, double ratio) const;
 
   /// δ_j of correction j = 1, 2, …, one that was made.

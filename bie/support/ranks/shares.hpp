@@ -22,12 +22,12 @@ class Shares {
   Shares(Ranks ranks, const std::vector<double>& costs, std::vector<std::size_t> originals = {});
 
   [[nodiscard]] const Ranks& ranks() const { return ranks_; }
-  /// Of an image: that of its original.
+  /// Rank of a part; an image has that of its original.
   [[nodiscard]] int owner(std::size_t part) const { return owners_.empty() ? 0 : owners_[part]; }
   /// Does this rank do the part? None does an image.
   [[nodiscard]] bool owns(std::size_t part) const { return !is_image(part) && has(part); }
   [[nodiscard]] bool is_image(std::size_t part) const { return !originals_.empty() && originals_[part] != part; }
-  /// Those of n parts that this rank owns.
+  /// The parts, of n, that this rank owns.
   [[nodiscard]] std::vector<std::size_t> own(std::size_t n) const;
 
   /// The values of all parts from their owners; those of others count for nothing before. Collective.
