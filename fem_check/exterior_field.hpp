@@ -3,7 +3,7 @@
 #include "fem_check/surface_terms.hpp"
 
 /// Conditions on a sphere for fields that decay outside it, exact for spherical harmonics of low degree: the operators
-/// from values there to ∂u/∂r of a potential and to −p n + μ ∂u/∂r of a flow. docs/weak_forms.md#outer-sphere
+/// from values there to ∂u/∂r of a potential and to −p n + μ ∂u/∂r of a flow. docs/weak_forms.md, outer sphere
 namespace vehd::fem_check {
 
 /// (l + 1) − robin for every harmonic of degree l, which decays as r^(−l−1); a matrix on coefficients of harmonics up

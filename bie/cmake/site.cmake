@@ -1,5 +1,5 @@
 # One site from the pages of docs/, the files of the top folder, the docstrings of the module of Python and the headers of
-# bie/, in SITE, which is made anew:
+# both halves, in SITE, which is made anew:
 #   cmake -DSITE=build/site -P bie/cmake/site.cmake
 # A warning of Sphinx or doxygen is an error. With -DOPTIONAL=ON it is made only where its tools are there.
 cmake_minimum_required(VERSION 3.25)
@@ -49,7 +49,8 @@ if(not_executed EQUAL 0)
 endif()
 
 file(READ "${source}/docs/site/Doxyfile" settings)
-string(APPEND settings "INPUT = \"${source}/bie\"\nSTRIP_FROM_PATH = \"${source}\"\nOUTPUT_DIRECTORY = \"${site}\"\n")
+string(APPEND settings "INPUT = \"${source}/bie\" \"${source}/fem_check\" \"${source}/meshes\"\n"
+       "STRIP_FROM_PATH = \"${source}\"\nOUTPUT_DIRECTORY = \"${site}\"\n")
 file(WRITE "${pages}/Doxyfile" "${settings}")
 execute_process(COMMAND "${doxygen}" "${pages}/Doxyfile" WORKING_DIRECTORY "${source}" COMMAND_ERROR_IS_FATAL ANY)
 
