@@ -47,9 +47,11 @@ Matrix surface_gradient(const Surface& surface, const SphereDerivatives& scalar)
 /// ∇_γ·v, [n_points], from the first derivatives of the three Cartesian components of v, tangential or not, each
 /// [n_points x 3].
 /// Accuracy: spectral; to 1e-11, and ∫∇_γ·v dA = −2∫H v·n dA to 1e-12 (tests/geometry/surface_calculus_test.cpp)
+/// Source: paper Eq. (19)
 Vector surface_divergence(const Surface& surface, const SphereDerivatives& vector);
 /// Δ_γ f of every column, [n_points x n_fields], from first and second derivatives on the surface's grid.
 /// Accuracy: spectral; Δ_γ x = 2Hn to 1e-11 (tests/geometry/surface_calculus_test.cpp)
+/// Source: ∇_γ·∇_γ f by paper Eq. (19)
 Matrix surface_laplacian(const Surface& surface, const SphereDerivatives& fields);
 
 /// ∫dA.
@@ -58,7 +60,7 @@ Matrix surface_laplacian(const Surface& surface, const SphereDerivatives& fields
 double surface_area(const Surface& surface);
 /// ∫f dA / ∫dA of a vector field, values [n_points x 3].
 Vector3 surface_mean(const Surface& surface, const Matrix& values);
-/// ∫x dA / ∫dA.
+/// Centroid of the surface, ∫x dA / ∫dA.
 Vector3 centroid(const Surface& surface);
 /// ∫ x·n dA / 3.
 /// Accuracy: spectral; of a 2:1 prolate to 1e-13 (tests/geometry/curvature_test.cpp)

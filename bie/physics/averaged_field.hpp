@@ -19,7 +19,8 @@ struct ComplexConductivities {
 /// @param electric  of an averaged frequency
 ComplexConductivities complex_conductivities(const ElectricParameters& electric);
 
-/// y = G_m + iωC_m of a membrane at this frequency.
+/// y = G_m + iωC_m of a membrane at this frequency, per area.
+/// Source: paper Eq. (4e)
 std::complex<double> membrane_admittance(const ChargingParameters& charging, double frequency);
 
 /// Fields of one membrane in a field E cos ωt after all transients. A complex amplitude z stands for Re(z e^{iωt});

@@ -83,6 +83,7 @@ Vector without_net_current(const Membrane& membrane, Vector current);
 /// Rates of the charges on material points, over C_m: D q_i/Dt = σ_i E_i − I, D q_e/Dt = −σ_e E_e + I with the current
 /// I through the membrane. No net current leaves a closed membrane on either side.
 /// @param current  I, outwards, values on the upsampled grid, [n_points]
+/// Source: docs/theory/electric.md
 Unknowns charge_rates(const ChargingMembrane& of, const RelaxingField& field, const Vector& current);
 
 }  // namespace vehd

@@ -15,6 +15,7 @@ constexpr Index n_solid(int degree) { return Index{degree + 1} * (degree + 1); }
 /// R at points.
 /// @param points  [n_points x 3]
 /// @return        [n_points x n_solid]
+/// Source: Epton and Dembart 1995
 Matrix regular_harmonics(const Matrix& points, int degree);
 
 /// Δ, [n_solid x n_solid], with ∂R/∂x_axis = R Δ, R one row of regular harmonics.

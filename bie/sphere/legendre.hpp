@@ -32,7 +32,8 @@ struct LegendreRecurrence {
 /// See LegendreRecurrence; 0 ≤ m < n.
 LegendreRecurrence legendre_recurrence(int n, int m);
 
-/// T_mm = legendre_sectoral_factor(m) sin θ T_{m−1,m−1}; T_00 = 1/√(4π).
+/// The factor of T_mm = legendre_sectoral_factor(m) sin θ T_{m−1,m−1}; T_00 = 1/√(4π).
+/// Source: Holmes and Featherstone 2002
 double legendre_sectoral_factor(int m);
 
 }  // namespace vehd

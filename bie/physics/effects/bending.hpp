@@ -17,6 +17,7 @@ Matrix bending_force(const BendingParameters& bending, const Membrane& membrane)
 /// ∫H² dA.
 /// Scale-free: 4π on every sphere.
 /// Accuracy: spectral; of spheres to 1e-12 (tests/physics/bending_test.cpp)
+/// Source: the energy of paper Eq. (2) over κ_B
 double bending_energy_scaled(const Surface& surface);
 
 /// First variation of H at material points for a displacement u: h = ½ Δ_γ u·n − b^ab x_a·∂_b u. The first term is Eq.

@@ -87,8 +87,10 @@ struct PoreParameters {
 };
 
 /// g_p = 2π r² σ_p/(π r + 2h) of a pore of radius r through a membrane of thickness h.
+/// Source: DeBruin and Krassowska 1999
 double pore_conductance(double radius, double thickness, double conductivity);
 /// σ_p = (σ_e − σ_i)/ln(σ_e/σ_i), of fluids that both conduct.
+/// Source: DeBruin and Krassowska 1999
 double pore_conductivity(double inside, double outside);
 
 /// The state is s = ln(N/N_0), which is smooth where N itself rises by orders of magnitude within a few degrees of

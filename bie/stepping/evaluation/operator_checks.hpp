@@ -17,6 +17,7 @@ struct LayerCheck {
 /// The check of the layers that the membrane has.
 /// Accuracy: below 1e-6 for exact layers on an asymmetric shape at p = 12, above 1e-5 at half the quadrature
 /// (tests/stepping/evaluation/operator_checks_test.cpp)
+/// Source: Gauss's theorem; Pozrikidis 1992
 LayerCheck check_layers(const Membrane& membrane);
 
 /// Least distance of two parts of the membrane that face each other, in grid spacings: over pairs of nodes of order p,
