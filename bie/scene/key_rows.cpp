@@ -304,7 +304,7 @@ void add_numerics(auto& scene) {
                 "use what is found; use none; refuse a scene that is not axisymmetric about any axis");
   numerics.key(
       "error_bars", &NumericsScene::error_bars,
-      {"", "", "history_error.csv: the estimated error of every number of history.csv, for a third more time"});
+      {"", "", "history_error.csv: the estimated error of every number of history.csv, for 6 to 63 % more time"});
 }
 
 void add_output(auto& scene) {
