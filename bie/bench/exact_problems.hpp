@@ -48,8 +48,8 @@ struct Example1Result {
 };
 
 /// @param upsampling  of the grid on which products are formed and errors taken; 1 as in the paper: the 2(p+1)² nodes
-/// @param tolerance   of GMRES, relative
-/// @throws ConvergenceError if GMRES does not converge
+/// @param tolerance   of the solve, relative
+/// @throws ConvergenceError if the solve does not converge
 Example1Result solve_example1(int order, int upsampling = 1, double tolerance = 1e-10);
 
 /// Results of the example.

@@ -24,7 +24,7 @@ BenchTable empty_space_table() {
            {"unknowns", ""},
            {"error_q", "error of q", kError},
            {"error_force", "error of f_E", kError},
-           {"iterations", "GMRES"},
+           {"iterations", "iterations"},
            {"seconds", "seconds", "{:.2g}", true},
            {"paper_error_q", "paper: q", kError},
            {"paper_error_force", "paper: f_E", kError},
@@ -39,7 +39,7 @@ int highest_degree(const std::vector<int>& orders) {
   return std::min(kLargest, kBeyond * *std::max_element(orders.begin(), orders.end()));
 }
 
-/// GMRES leaves nothing beside what the degree does.
+/// The error of the solver is negligible beside that of the degree.
 constexpr double kSolved = 1e-13;
 
 /// What equal errors cost, so that another code can be held beside it.
