@@ -1,7 +1,7 @@
 #pragma once
 
-/// What fem_check uses of deal.II, compiled once. Only sources of this folder include it: the public headers are free
-/// of deal.II.
+/// The parts of deal.II that fem_check uses, compiled once. Only sources of this folder include it: the public headers
+/// are free of deal.II.
 
 #include "fem_check/lanes.hpp"
 // Lanes first.

@@ -26,7 +26,7 @@ class StokesSystem {
   /// @throws std::invalid_argument for a degree below 2 or a viscosity that is not positive
   StokesSystem(const Discretisation& discretisation, const Viscosities& viscosity, WallFlow wall,
                int exterior_degree = usual_exterior_degree);
-  /// The same, all but the fields outside shared.
+  /// The system with another exterior degree; all else is shared.
   [[nodiscard]] StokesSystem with_exterior(int exterior_degree) const;
 
   /// A vector of zeros with these blocks.

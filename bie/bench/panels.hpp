@@ -20,7 +20,7 @@ class BenchRecord {
   /// Cells of a column, of the rows whose column `key` holds `value`; all rows without a key.
   [[nodiscard]] std::vector<std::string> texts(const std::string& column, const std::string& key = "",
                                                const std::string& value = "") const;
-  /// The same as numbers, NaN where a cell is empty.
+  /// Such cells as numbers, NaN where a cell is empty.
   [[nodiscard]] std::vector<double> numbers(const std::string& column, const std::string& key = "",
                                             const std::string& value = "") const;
   /// Different cells of a column, in the order in which they come.

@@ -37,11 +37,11 @@ struct ColourRange {
   bool below = false, above = false;  ///< values beyond the ends have the colours of the ends
 };
 
-/// How far the values of a field reach on one shape.
+/// Range of the values of a field on one shape.
 struct FieldReach {
   double least = 0.0, most = 0.0;
-  /// The same without half a percent of the area at either end, so that one spot does not take the colours from all
-  /// others; the extremes themselves where these are near.
+  /// The range without half a percent of the area at either end, so that one spot does not use up the colours; the
+  /// extremes themselves where these are near.
   double lower = 0.0, upper = 0.0;
 };
 

@@ -37,7 +37,7 @@ struct HistoryPanel {
   std::vector<HistoryQuantity> axes;
 };
 
-/// Those of the quantities that a picture of all has room for: energy and tension, V_m and charge, inclination and
+/// Panels of the quantities that fit in one picture: energy and tension, V_m and charge, inclination and
 /// aspect ratio; the errors if a drift comes near the limit of the verdict; the extents where the page has room for
 /// them.
 /// @param errors  see history_quantities

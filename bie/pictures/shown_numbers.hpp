@@ -42,7 +42,7 @@ ShownUnit shown_unit(const OutputUnits& units, std::string_view dimension);
 /// key itself if it has none.
 std::string key_label(std::string_view key);
 
-/// Likewise of a column of history.csv without its unit; its name without underscores if it has none.
+/// Words and symbol of a column of history.csv without its unit; its name without underscores if it has none.
 std::string column_title(std::string_view column);
 
 }  // namespace vehd

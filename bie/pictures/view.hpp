@@ -9,7 +9,7 @@
 /// Parallel projections: directions to the right, upwards and towards the eye.
 namespace vehd {
 
-/// The same three numbers.
+/// The three numbers as a vector.
 Vector3 vector_of(const Triple& triple);
 
 /// "x" (y to the right, z upwards), "y" (x to the right, z upwards), "z" (x to the right, y upwards) or a direction

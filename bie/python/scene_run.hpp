@@ -62,7 +62,7 @@ class SceneRun {
   [[nodiscard]] bool has_own_files() const { return getpid() == process_; }
   void require_own_files() const;
 
-  /// What a moment may outlive the rest with.
+  /// Members that a view of a state may keep alive.
   struct Parts {
     explicit Parts(const Scene& given) : scene(given) {}
     Scene scene;

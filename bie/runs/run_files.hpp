@@ -15,7 +15,7 @@
 /// beside it counts; a run that is still under way may have more than that. Whatever reads a run reads it here.
 namespace vehd {
 
-/// What was read without knowing whether it is intact: files of an earlier vehd have no checksums. One line for each.
+/// Files that were read without checksums, since an earlier vehd wrote them: one line for each.
 using ReadingNotes = std::vector<std::string>;
 
 /// A run.h5. @throws InputError naming the objects that are damaged, missing or of another run

@@ -83,7 +83,7 @@ class Simulation {
   [[nodiscard]] std::string time_text(double time) const { return time_unit_.text_of(time); }
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  /// What it computes with.
+  /// The problem that is solved.
   [[nodiscard]] const Problem& problem() const { return problem_; }
   /// State and evaluation, in the frame of the problem.
   [[nodiscard]] const Evolution& evolution() const { return evolution_; }

@@ -22,8 +22,8 @@ struct ActingWaveform {
   WaveformScene waveform;
 };
 
-/// Those of a scene of one vesicle. A field, flow or pump that is 0 has none. Of a field of which only the mean force
-/// counts it is that of the amplitude: none, or a pulse as long as a burst.
+/// The waveforms of a scene of one vesicle. A field, flow or pump that is 0 has none. An averaged field has that of its
+/// amplitude: none, or a pulse as long as a burst.
 std::vector<ActingWaveform> acting_waveforms(const Scene& scene);
 
 /// Steps that a run takes at least until that time because of the waveform, by arithmetic: fewest_steps_a_period a

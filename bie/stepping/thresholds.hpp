@@ -23,24 +23,23 @@ constexpr double known_strain = 5e-3;
 
 // Shares of the tolerance.
 
-/// What one step may leave by its estimate: the errors of about three steps add up. Measured.
+/// Estimated error allowed to one step: the errors of about three steps add up. Measured.
 constexpr double step_share = 0.35;
 /// The error of a state within the step. Measured.
 constexpr double moment_share = 0.25;
-/// What the degrees left out may make up, and what two more change of the charge at the start: the rest is that of the
-/// step.
+/// Truncation error, and change of the charge at the start by two more degrees; the rest is for the step.
 constexpr double truncation_share = 0.3;
 
 // Steps with a tolerance.
 
-/// Corrections that seem to contract more than this are not believed. Where a motion relaxes about once within a step
+/// Strongest contraction of corrections that is assumed. Where a motion relaxes about once within a step
 /// its correction passes through zero in one sweep, and the next ones contract by 0.1 to 0.3. With 0.1 a membrane that
 /// becomes taut is wrong by four tolerances, with 0.2 two spheres that approach each other take fifteen times as many
 /// steps. Measured.
 constexpr double best_contraction = 0.12;
 /// The last step is extrapolated to a time at most this many times as far away as it began. Measured.
 constexpr double longest_extrapolation = 2.0;
-/// What a degree leaves out of a compressed membrane is expected to grow by this at most. Measured.
+/// Largest growth of the truncation error of a compressed membrane that is allowed for. Measured.
 constexpr double most_growth = 30.0;
 /// Degrees by which one that is too low rises at least: the next one is of the other parity, which adds nothing to a
 /// shape that has mirrors. One that is too high falls by twice as many at least: four of sixteen are half of the

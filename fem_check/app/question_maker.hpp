@@ -46,10 +46,10 @@ class QuestionMaker {
   const ComparisonPlaces& places_;
 };
 
-/// The same question about a tension, or a force of one, that is known up to a uniform one.
+/// A question about a tension, or its force, without the uniform part, which is undetermined.
 FieldQuestion without_uniform_tension(FieldQuestion question, const SurfacePoints& points);
 
-/// The same question about what is left when `of_points` is taken from everything that is compared.
+/// A question with `of_points` subtracted from all compared values.
 FieldQuestion without(FieldQuestion question, const Eigen::MatrixXd& of_points);
 
 }  // namespace vehd::fem_check

@@ -16,11 +16,11 @@ namespace vehd::fem_check {
 Solved solve_shape_flow(const CheckInput& input, const Discretisation& space, const Refinement& refinement,
                         const VectorOnSurface& electric);
 
-/// The same at rising degree: f_b from the bending energy of the elements, f_E from their potential, weight, and the
-/// tension that keeps every area element. Surface fields: velocity; bending, f_b without spontaneous curvature, where a
-/// membrane resists bending; spontaneous_curvature, what that adds to f_b, where there is one; tension where it is
-/// inextensible, without its mean where a uniform one does nothing. Of several vesicles the elements have no tensions,
-/// hence no flow: both parts of f_b alone, and no levels where there are none.
+/// The flow from the shape at rising degree: f_b from the bending energy of the elements, f_E from their potential,
+/// weight, and the tension that keeps every area element. Surface fields: velocity; bending, f_b without spontaneous
+/// curvature, where a membrane resists bending; spontaneous_curvature, what that adds to f_b, where there is one;
+/// tension where it is inextensible, without its mean where a uniform one does nothing. Of several vesicles the
+/// elements have no tensions, hence no flow: both parts of f_b alone, and no levels where there are none.
 /// @param potential  null without a field; f_E is that of its finest level. What that leaves out stands between the
 ///                   last two levels, as an error of the last
 /// @throws SolveError

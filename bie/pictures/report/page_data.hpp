@@ -12,7 +12,7 @@
 #include "bie/scene/output_units.hpp"
 #include "bie/scene/scene.hpp"
 
-/// What a report puts into its page.
+/// Data of the page of a report.
 namespace vehd {
 
 /// The verdict on a run for a page: "text", "state" (good, doubtful, stopped, unfinished) and "limits", each number

@@ -31,7 +31,7 @@ struct SweepTask {
 /// @throws OutputError if no process can be started
 std::string run_sweep(const SweepTask& task, Interruption& interruption);
 
-/// What a worker shows to the process that has started it, in memory of both; begins with zeros.
+/// Progress of a worker, in memory shared with the process that started it; begins with zeros.
 struct WorkerBoard {
   std::atomic<std::int64_t> n_finished;  ///< runs, of all workers that had this board
   std::atomic<double> share;             ///< of the present run that is done

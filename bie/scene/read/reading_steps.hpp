@@ -18,7 +18,7 @@ namespace vehd {
 /// refused is refused here: other keys would be blamed for a scale that it does not give.
 void derive_reference_scales(UnitsScene& units, const TomlFile& file);
 
-/// What could have a unit to give a scale of [units], as it stands in messages: "area" in [shape].
+/// Keys whose units could determine a scale of [units], as messages name them: "area" in [shape].
 std::string source_of_scale(std::string_view scale);
 
 /// Replaces every `path` of a waveform or of a spatially varying property with the numbers of its file: lines of

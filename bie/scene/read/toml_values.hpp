@@ -38,7 +38,7 @@ struct TomlFile {
                            Arguments&&... arguments) const {
     throw InputError(place(node, name) + ": " + fmt::format(problem, std::forward<Arguments>(arguments)...));
   }
-  /// Likewise at the key of a table, or at the table that lacks it.
+  /// Throws InputError with the place of the key of a table, or of the table that lacks it.
   /// @param dotted  of the scene, "electric.waveform" included; it exists
   template <typename... Arguments>
   [[noreturn]] void refuse_key(std::string_view dotted, std::string_view key, fmt::format_string<Arguments...> problem,

@@ -21,7 +21,7 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
                             double quadrature_tolerance, const VesicleState& vesicle, const VesicleSolution& solution,
                             const VesicleFields& fields, const VesicleDiagnostics* previous = nullptr);
 
-/// The same quantities where the state is that of a frame: extents, inclination and the values at the north pole are
+/// History quantities of a state in a frame: extents, inclination and the values at the north pole are
 /// found anew along the axes of the laboratory.
 /// @param fine  of all longitudes: an extreme of an axisymmetric surface lies on any of them
 /// @param s     the surface on its grid

@@ -23,7 +23,7 @@ class LabFrameOutput {
   /// @param d       of the state in the frame
   /// @param state   in the frame, as are the fields
   [[nodiscard]] Diagnostics diagnostics(const Diagnostics& d, const State& state, const Fields& fields) const;
-  /// The same where no axes are rotated: the origin may be another.
+  /// Diagnostics in the laboratory if no axes are rotated: the origin may differ.
   [[nodiscard]] Diagnostics diagnostics(Diagnostics d) const;
 
  private:

@@ -160,7 +160,7 @@ class StepOperations {
   struct Iterations {
     int flow = 0, electric = 0;
   };
-  /// What counts the work for one node. That of others may be done at the same time.
+  /// Counters of the work for one node; other nodes may be worked on at the same time.
   struct NodeWork {
     Instruments& instruments;
     Iterations& iterations;
@@ -192,7 +192,7 @@ class StepOperations {
   /// @param rigid  the motion of a sphere, which takes the place of the start's velocity there
   std::vector<Motion> motions(const std::vector<MotionStart>& starts, const RigidMotion& rigid, double dt, NodeEnd end,
                               NodeWork& work);
-  /// The same of one. Others may be moved at the same time.
+  /// The motion of one vesicle; others may be moved at the same time.
   Motion motion(std::size_t vesicle, const MotionStart& start, const RigidMotion& rigid, double dt, NodeEnd end,
                 Instruments& instruments, int& iterations);
 
