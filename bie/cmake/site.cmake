@@ -1,7 +1,7 @@
 # One site from the pages of docs/, the files of the top folder, the docstrings of the module of Python and the headers of
 # both halves, in SITE, which is made anew:
 #   cmake -DSITE=build/site -P bie/cmake/site.cmake
-# A warning of Sphinx or doxygen is an error. With -DOPTIONAL=ON it is made only where its tools are there.
+# A warning of Sphinx or doxygen is an error, and so is a link that leads nowhere. With -DOPTIONAL=ON it is made only where its tools are there.
 cmake_minimum_required(VERSION 3.25)
 
 get_filename_component(source "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
@@ -56,4 +56,5 @@ execute_process(COMMAND "${doxygen}" "${pages}/Doxyfile" WORKING_DIRECTORY "${so
 
 file(WRITE "${site}/index.html" "<!doctype html><meta http-equiv=\"refresh\" content=\"0; url=docs/index.html\">\n")
 file(REMOVE_RECURSE "${pages}")
+execute_process(COMMAND ${python} "${source}/docs/site/check_links.py" "${site}" COMMAND_ERROR_IS_FATAL ANY)
 message("The site begins at ${site}/index.html")

@@ -65,7 +65,7 @@ def format_docstring(app, what, name, obj, options, lines):
             continue
         indent = ""
         for line in block:
-            item = re.match(r"([a-z]\w*(?:, [a-z]\w*)*|[A-Z]\w+Error): ", line)
+            item = re.match(r"([a-z]\w*(?:, [a-z]\w*)*|[A-Z]\w+Error(?:, [A-Z]\w+Error)*): ", line)
             if item:
                 lines += ["", f"* ``{item[1]}``:"]
                 indent = "  "

@@ -60,7 +60,8 @@ class Scene:
                   settings: Optional[Mapping[str, Any]] = None) -> "Scene":
         """A scene from TOML in memory.
 
-        name: stands for the file in messages; folder: where relative paths in the scene start.
+        name: stands for the file in messages.
+        folder: where relative paths in the scene start.
         """
         return cls._of(_core.Scene.from_text(text, name, os.fspath(folder), _settings(settings)))
 
