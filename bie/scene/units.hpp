@@ -39,8 +39,8 @@ struct Dimension {
   std::string_view name;
   std::array<int, 4> powers;  ///< of the reference length, time, viscosity and potential
   std::vector<Unit> units;    ///< the first is the SI unit
-  /// Power of the unit with a prefix in results: 2 in um^2; 0: the SI unit as it is; negative: no result has it.
-  int result_power = -1;
+  /// The unit of results, the same in every run; empty where no result has the dimension.
+  std::string_view result_unit{};
 
   [[nodiscard]] std::string_view si_unit() const { return units.front().symbol; }
   /// A product may lack its space, as in "mPas". @return nullptr if there is no such unit

@@ -29,7 +29,7 @@ struct ShortRun : FinishedRun {
   }
 };
 
-/// Snapshots at 0, 50, 100 and 125 us; 1 of the scene is 10 us, the history has us.
+/// Snapshots at 0, 50, 100 and 125 us; 1 of the scene is 10 us, the history has ms.
 struct ShortSiRun : FinishedRun {
   ShortSiRun()
       : FinishedRun(
@@ -81,31 +81,31 @@ BOOST_FIXTURE_TEST_CASE(times_outside_the_run_are_refused, ShortRun) {
              file() + ": the time \"1 ms\" has a unit, but the scene has no unit of time; accepted: a number\n");
 }
 
-// Found: a number was one of the scene, 10 us, where everything that a user reads says us.
+// Found: a number was one of the scene, 10 us, where everything that a user reads says ms.
 BOOST_FIXTURE_TEST_CASE(times_of_a_run_in_si_are_those_that_it_shows, ShortSiRun) {
-  BOOST_TEST(vehd::HistoryTable(output + "/history.csv").header("time") == "time [us]");
-  for (const char* times : {"0,50,125", "0 s, 0.05 ms, 125 µs", "0.0,50us,1.25e-4 s"}) {
+  BOOST_TEST(vehd::HistoryTable(output + "/history.csv").header("time") == "time [ms]");
+  for (const char* times : {"0,0.05,0.125", "0 s, 0.05 ms, 125 µs", "0.0,50us,1.25e-4 s"}) {
     const ProgramResult result = plot(times);
     BOOST_TEST(result.exit_code == 0, result.errors);
     BOOST_TEST(result.errors == "");
     const auto json = json_of(directory / "plot.json");
-    BOOST_TEST(json.at("time_unit") == "us");
+    BOOST_TEST(json.at("time_unit") == "ms");
     const auto drawn = json.at("times").get<std::vector<double>>();
-    const std::vector<double> expected = {0.0, 50.0, 125.0};
+    const std::vector<double> expected = {0.0, 0.05, 0.125};
     BOOST_TEST(drawn == expected, boost::test_tools::tolerance(1e-12) << boost::test_tools::per_element());
   }
   const std::string run = output + "/run.h5";
-  const ProgramResult near = plot("45");
-  BOOST_TEST(near.errors == run + ": no snapshot at time 45 us; taken: the nearest, at 50 us\n");
+  const ProgramResult near = plot("0.045");
+  BOOST_TEST(near.errors == run + ": no snapshot at time 0.045 ms; taken: the nearest, at 0.05 ms\n");
   const ProgramResult far = plot("1 ms");
   BOOST_TEST(far.exit_code == 1);
   BOOST_TEST(far.errors ==
-             run + ": no snapshot near time 1000 us; there are 4 from 0 us to 125 us, the nearest at 125 us\n");
+             run + ": no snapshot near time 1 ms; there are 4 from 0 ms to 0.125 ms, the nearest at 0.125 ms\n");
 }
 
 BOOST_FIXTURE_TEST_CASE(frozen_states_of_a_run_in_si_take_the_same_times, ShortSiRun) {
   const std::string run = output + "/run.h5";
-  for (const char* time : {"50", "50 us", "0.05 ms"}) {
+  for (const char* time : {"0.05", "50 us", "0.05 ms"}) {
     BOOST_TEST(vehd::read_frozen_state({run, {}}, time).state.time == 5.0, boost::test_tools::tolerance(1e-12));
     BOOST_TEST(vehd::read_frozen_shape(run, time).notes.empty());
   }

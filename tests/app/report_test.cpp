@@ -109,12 +109,12 @@ BOOST_AUTO_TEST_CASE(report_of_a_run_in_si_is_in_its_units) {
   const nlohmann::json data = data_of(file_text(run.page));
   const auto& reached = data["facts"][0];
   BOOST_TEST(reached[0] == "time reached");
-  BOOST_TEST(reached[1] == "150 µs");
+  BOOST_TEST(reached[1] == "0.15 ms");
   BOOST_TEST(data["surface"]["unit"] == "µm");
-  BOOST_TEST(data["surface"]["times"] == nlohmann::json::parse("[0.0, 75.0, 150.0]"));
+  BOOST_TEST(data["surface"]["times"] == nlohmann::json::parse("[0.0, 0.075, 0.15]"));
   BOOST_TEST(std::abs(data["surface"]["extents"][0][2].get<double>() - 24.0) < 1e-4);
   BOOST_TEST(data["surface"]["fields"][0]["unit"] == "mV");
-  BOOST_TEST(data["history"]["unit"] == "µs");
+  BOOST_TEST(data["history"]["unit"] == "ms");
   std::map<std::string, std::string> units;
   for (const auto& panel : data["history"]["panels"]) units[panel["title"]] = panel["unit"];
   BOOST_TEST(units.at("potential across the membrane") == "mV");

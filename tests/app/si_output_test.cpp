@@ -51,7 +51,7 @@ BOOST_FIXTURE_TEST_CASE(units_change_what_is_shown_and_nothing_of_the_run, SiRun
   const std::string shown = run("shown", pulse()), plain = run("plain", pulse("units = \"dimensionless\"\n"));
   const vehd::HistoryTable si(shown + "/history.csv"), numbers(plain + "/history.csv");
   const vehd::OutputUnits units(vehd::read_scene(shown + "/scene.toml"));
-  BOOST_TEST(si.header("time") == "time [us]");
+  BOOST_TEST(si.header("time") == "time [ms]");
   BOOST_TEST(si.header("extent_z") == "extent_z [um]");
   BOOST_TEST(si.header("reduced_volume") == "reduced_volume");
   BOOST_TEST(numbers.header("time") == "time");
@@ -112,13 +112,13 @@ BOOST_FIXTURE_TEST_CASE(a_history_in_si_does_not_depend_on_the_reference_scales,
 BOOST_FIXTURE_TEST_CASE(numbers_are_those_of_the_experiment, SiRun) {
   const std::string output = run("run", pulse());
   const vehd::HistoryTable history(output + "/history.csv");
-  BOOST_TEST(history.column("time").back() == 200.0, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(history.column("time").back() == 0.2, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(history.column("area").front() == 1257.0, boost::test_tools::tolerance(1e-9));
-  BOOST_TEST(history.header("Vm_pole_plus") == "Vm_pole_plus [V]");
-  BOOST_TEST(has(printed, "completed at time 200 us: "));
+  BOOST_TEST(history.header("Vm_pole_plus") == "Vm_pole_plus [mV]");
+  BOOST_TEST(has(printed, "completed at time 0.2 ms: "));
   const auto summary = json_of(output + "/summary.json");
-  BOOST_TEST(summary.at("time").get<double>() == 200.0, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(summary.at("units").at("time").get<std::string>() == "us");
+  BOOST_TEST(summary.at("time").get<double>() == 0.2, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(summary.at("units").at("time").get<std::string>() == "ms");
   const vehd::Hdf5Reader file(output + "/run.h5");
   BOOST_TEST(file.text_attribute("/snapshots/000000/x", "unit") == "m");
   const double radius = std::sqrt(1257e-12 / (4.0 * std::acos(-1.0)));
@@ -145,16 +145,15 @@ BOOST_FIXTURE_TEST_CASE(a_dimensionless_run_names_no_unit, SiRun) {
   BOOST_TEST(!has(file_text(output + "/history.csv"), "["));
 }
 
-// A longer run would be shown in ms: the file keeps its units.
 BOOST_FIXTURE_TEST_CASE(a_run_goes_on_in_the_units_of_its_history, SiRun) {
   const std::string begun = run("run", pulse("", "200 us"));
   const std::string text = file_text(begun + "/history.csv");
   run("run", pulse("", "1200 us"), {"--resume"});
   const vehd::HistoryTable history(begun + "/history.csv");
   BOOST_TEST(file_text(begun + "/history.csv").starts_with(text));
-  BOOST_TEST(history.header("time") == "time [us]");
-  BOOST_TEST(history.column("time").back() == 1200.0, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(has(printed, "completed at time 1200 us: "));
+  BOOST_TEST(history.header("time") == "time [ms]");
+  BOOST_TEST(history.column("time").back() == 1.2, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(has(printed, "completed at time 1.2 ms: "));
   write_text(directory / "run.toml", pulse("units = \"dimensionless\"\n", "1200 us"));
   const ProgramResult refused = run_vehd({"run", directory / "run.toml", "-o", begun, "--resume"});
   BOOST_TEST(refused.exit_code == 1);

@@ -32,15 +32,14 @@ std::int64_t& counter_of(const std::optional<RunResult>& result, SweepCount& cou
   return result->reason.empty() ? count.completed : count.stopped;
 }
 
-/// Makes the table of a sweep from the results that there are. All rows are in the units of the base scene.
+/// Makes the table of a sweep from the results that there are.
 class TableWriter {
  public:
   TableWriter(const SweepPaths& paths, const SweepFile& sweep, const std::vector<SweepRun>& runs)
-      : paths_(paths), sweep_(sweep), runs_(runs), columns_(columns_of(sweep)) {
+      : paths_(paths), sweep_(sweep), runs_(runs) {
     const OutputUnits units(sweep.scene);
-    for (const HistoryColumn& column : columns_) {
+    for (const HistoryColumn& column : columns_of(sweep)) {
       const std::string symbol = units.of(column.dimension).symbol;
-      symbols_[std::string(column.dimension)] = symbol;
       headers_.push_back(symbol.empty() ? std::string(column.name) : fmt::format("{} [{}]", column.name, symbol));
     }
   }
@@ -73,7 +72,7 @@ class TableWriter {
       if (result && counted.insert(run.name).second) count.seconds += result->seconds;
       std::vector<std::string> cells;
       for (const VariedValue& value : run.values) cells.push_back(value.shown);
-      for (const HistoryColumn& column : columns_) cells.push_back(result ? cell(run, *result, column) : "");
+      for (const std::string& column : headers_) cells.push_back(result ? cell(*result, column) : "");
       cells.push_back(result ? table_line(result->verdict) : "unfinished");
       cells.push_back(result ? table_line(result->reason) : "");
       cells.push_back(result ? fmt::format("{:.3f}", result->seconds) : "");
@@ -84,12 +83,10 @@ class TableWriter {
   }
 
  private:
-  [[nodiscard]] std::string cell(const SweepRun& run, const RunResult& result, const HistoryColumn& column) const {
-    const auto value = result.final_values.find(column.name);
+  [[nodiscard]] static std::string cell(const RunResult& result, const std::string& header) {
+    const auto value = result.final_values.find(header);
     if (value == result.final_values.end()) return "";
-    const OutputUnits own(*run.scene), shown(run.scene->units, symbols_);
-    const double number = std::strtod(value->second.c_str(), nullptr) *
-                          (shown.of(column.dimension).factor / own.of(column.dimension).factor);
+    const double number = std::strtod(value->second.c_str(), nullptr);
     // The sign of what is no number means nothing; others have no more digits than give the same number back.
     return std::isnan(number) ? "nan" : fmt::format("{}", number);
   }
@@ -97,8 +94,6 @@ class TableWriter {
   const SweepPaths& paths_;
   const SweepFile& sweep_;
   const std::vector<SweepRun>& runs_;
-  std::vector<HistoryColumn> columns_;
-  std::map<std::string, std::string, std::less<>> symbols_;  ///< of the dimensions of the columns
   std::vector<std::string> headers_;
 };
 
@@ -110,7 +105,7 @@ RunResult result_of(const RunPaths& paths, const nlohmann::json& summary) {
   const HistoryTable history(paths.history());
   if (history.n_rows() == 0) throw InputError(fmt::format("{}: holds no row", paths.history().string()));
   for (const std::string& name : history.names()) {
-    result.final_values[name] = fmt::format("{:.17g}", history.column(name).back());
+    result.final_values[history.header(name)] = fmt::format("{:.17g}", history.column(name).back());
   }
   return result;
 }
