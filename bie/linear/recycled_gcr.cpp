@@ -145,7 +145,7 @@ void RecycledGcr::search(double wanted, int most, double allowed, Iterate& itera
   }
 }
 
-RecycledSubspace RecycledGcr::learned() const {
+RecycledSubspace RecycledGcr::found() const {
   const auto n = static_cast<Index>(directions_.size());
   RecycledSubspace result{Matrix(size_, n), Matrix(size_, n)};
   for (Index j = 0; j < n; ++j) {

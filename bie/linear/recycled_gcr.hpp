@@ -37,7 +37,7 @@ class RecycledGcr {
   Solution solve(const Vector& rhs, const Vector& start, const SolveOptions& options, double least_size = 0.0);
 
   /// Directions and their images under A from all solves so far.
-  [[nodiscard]] RecycledSubspace learned() const;
+  [[nodiscard]] RecycledSubspace found() const;
   /// The columns of `known` that are not nearly dependent on newer ones.
   [[nodiscard]] const std::vector<Index>& kept() const { return secant_.kept(); }
 

@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(what_was_learned_of_a_similar_operator_saves_iterations_and
   const Vector rhs = right_hand_side(kSize, 0.0);
   RecycledGcr teacher(map_of(former), identity, kSize);
   teacher.solve(rhs, {}, {1e-10, 60});
-  const RecycledSubspace learned = teacher.learned();
+  const RecycledSubspace learned = teacher.found();
   BOOST_TEST((former * learned.arguments - learned.responses).norm() < 1e-12 * learned.responses.norm());
   const int cold = RecycledGcr(map_of(matrix), identity, kSize).solve(rhs, {}, {1e-8, 60}).report.iterations;
   const RecycledGcr::Solution solution =
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(well_conditioned_solves_apply_the_map_once_an_iteration) {
     iterations += solver.solve(right_hand_side(kSize, phase), {}, {1e-9, 60}).report.iterations;
   }
   BOOST_TEST(applications == iterations);
-  BOOST_TEST(solver.learned().count() == iterations);
+  BOOST_TEST(solver.found().count() == iterations);
 }
 
 BOOST_AUTO_TEST_CASE(further_entries_belong_to_the_solution) {

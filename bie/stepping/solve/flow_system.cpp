@@ -136,7 +136,7 @@ RecycledSubspace FlowSystem::stacked_subspace() const {
 }
 
 std::vector<RecycledSubspace> FlowSystem::found() const {
-  const RecycledSubspace all = solver_.learned();
+  const RecycledSubspace all = solver_.found();
   std::vector<RecycledSubspace> result;
   for (std::size_t a = 0; a < equations_.size(); ++a) {
     const Index first = rows_.first(a), count = equations_[a].size();
