@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "bie/physics/charge_density.hpp"
 #include "bie/physics/effects/bending.hpp"
 #include "bie/physics/effects/tension.hpp"
+#include "bie/physics/electric.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/physics/membrane_flow.hpp"
 #include "bie/physics/volume_fields.hpp"

@@ -3,8 +3,8 @@
 #include <numbers>
 #include <utility>
 
-#include "bie/physics/charge_density.hpp"
 #include "bie/physics/current_law.hpp"
+#include "bie/physics/electric.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/complex_columns.hpp"
 

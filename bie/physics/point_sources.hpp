@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bie/physics/charge_density.hpp"
+#include "bie/physics/electric.hpp"
 
 namespace vehd {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bie/bench/exact_problems.hpp"
-#include "bie/physics/charge_density.hpp"
+#include "bie/physics/electric.hpp"
 #include "bie/python/arrays.hpp"
 #include "bie/python/bindings.hpp"
 #include "bie/python/point_sources.hpp"

@@ -1,9 +1,8 @@
-#include "bie/physics/charge_density.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
 
+#include "bie/physics/electric.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "tests/physics/coupled_spheres.hpp"
 #include "tests/support/electric.hpp"

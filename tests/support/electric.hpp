@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bie/physics/charge_density.hpp"
+#include "bie/physics/electric.hpp"
 #include "tests/support/membrane.hpp"
 
 namespace vehd::testing {

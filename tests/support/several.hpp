@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "bie/physics/charge_density.hpp"
 #include "bie/physics/current_law.hpp"
+#include "bie/physics/electric.hpp"
 #include "tests/support/membrane.hpp"
 
 namespace vehd::testing {

@@ -1,7 +1,7 @@
 #include <utility>
 
 #include "bie/physics/averaged_field.hpp"
-#include "bie/physics/charge_density.hpp"
+#include "bie/physics/electric.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/stepping/evaluation/vesicle_task.hpp"
 #include "bie/stepping/state/composition.hpp"

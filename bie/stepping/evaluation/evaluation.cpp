@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "bie/physics/charge_density.hpp"
+#include "bie/physics/electric.hpp"
 #include "bie/physics/membrane_flow.hpp"
 #include "bie/stepping/evaluation/diagnose.hpp"
 #include "bie/stepping/evaluation/poration_load.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "bie/physics/charge_density.hpp"
+#include "bie/physics/electric.hpp"
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/space/discretisation.hpp"
