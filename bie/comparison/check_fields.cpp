@@ -117,7 +117,7 @@ class FrozenSolver {
                       "steady membrane potentials");
     const std::vector<SecondKindSolution> densities = charge_densities(potentials);
     const std::vector<Vector> of_others = potentials_of_others(in_field_, interaction, potentials, densities);
-    for (const std::size_t a : interaction.shares().own(results.size())) {
+    for (const std::size_t a : interaction.partition().local_indices(results.size())) {
       const ElectricTraces traces =
           electric_traces(in_field_[a].electric, membrane(a), potentials[a], densities[a], of_others[a]);
       charges[a] = membrane(a).fine.analyze(traces.charge);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bie/geometry/surface.hpp"
-#include "bie/physics/charge_density.hpp"
+#include "bie/physics/electric.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evaluation/evaluation.hpp"
 #include "bie/stepping/space/discretisation.hpp"

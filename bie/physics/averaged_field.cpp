@@ -84,7 +84,7 @@ AveragedFields solve_averaged_fields(const std::vector<ChargingMembrane>& membra
     traces = traces_of_laws(membranes, interaction, laws, potentials);
   }
   result.membranes.resize(membranes.size());
-  for (const std::size_t a : interaction.shares().own(membranes.size())) {
+  for (const std::size_t a : interaction.partition().local_indices(membranes.size())) {
     result.membranes[a] = field_of(membranes[a].in_field, potentials[a], traces[a]);
   }
   return result;

@@ -133,7 +133,7 @@ class LawEquations {
 
   LawEquations(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction,
                const std::vector<CurrentLaw<Scalar>>& laws)
-      : interaction_(interaction), owned_(interaction.shares().own(laws.size())) {
+      : interaction_(interaction), owned_(interaction.partition().local_indices(laws.size())) {
     for (std::size_t b = 0; b < membranes.size(); ++b) {
       const LawEquation<Scalar>& one = of_each_.emplace_back(membranes[b].in_field, laws[b]);
       if (membranes.size() > 1 && one.conduction() == 0.0 && one.stores()) {
@@ -292,7 +292,7 @@ std::vector<OfOthers<Scalar>> layers_of_others(const Interaction& interaction,
   const auto single_flux = of_others<Scalar>(interaction, &Interaction::weighted_single_flux, weighted_jumps);
   const auto of_double = of_others<Scalar>(interaction, &Interaction::double_potential, potentials);
   const auto of_single = of_others<Scalar>(interaction, &Interaction::single_potential, weighted_jumps);
-  for (const std::size_t a : interaction.shares().own(result.size())) {
+  for (const std::size_t a : interaction.partition().local_indices(result.size())) {
     result[a] = {double_flux[a] - single_flux[a], of_single[a] - of_double[a]};
   }
   return result;
@@ -326,7 +326,7 @@ std::vector<TracesOf<Scalar>> traces_of_laws(const std::vector<ChargingMembrane>
                                              const Interaction& interaction,
                                              const std::vector<CurrentLaw<Scalar>>& laws,
                                              const std::vector<FieldOf<Scalar>>& potentials) {
-  const std::vector<std::size_t> own = interaction.shares().own(membranes.size());
+  const std::vector<std::size_t> own = interaction.partition().local_indices(membranes.size());
   std::vector<FieldOf<Scalar>> jumps(membranes.size());
   for (const std::size_t a : own) {
     if (!carries_charge(membranes[a].in_field.electric)) continue;

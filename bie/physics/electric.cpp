@@ -137,7 +137,7 @@ class DensityEquations {
       : membranes_(std::move(membranes)),
         contrasts_(std::move(contrasts)),
         interaction_(interaction),
-        owned_(interaction.shares().own(membranes_.size())) {
+        owned_(interaction.partition().local_indices(membranes_.size())) {
     std::vector<double> areas;
     for (const Membrane* membrane : membranes_) {
       entries_.add(membrane->subspace.n_coefficients(), 1, membrane->subspace.potentials());
@@ -205,7 +205,7 @@ std::vector<SecondKindSolution> solved(const std::vector<const Membrane*>& membr
   std::vector<SecondKindSolution> result;
   for (std::size_t a = 0; a < membranes.size(); ++a) {
     SecondKindSolution& density = result.emplace_back(SecondKindSolution{weighted[a], {}, report});
-    if (!interaction.shares().owns(a)) continue;
+    if (!interaction.partition().is_local(a)) continue;
     const Membrane& membrane = *membranes[a];
     Vector values = weighted_rhs[a];
     if (contrasts[a] != 0.0) {
@@ -223,7 +223,7 @@ std::vector<Vector> weighted_fluxes(const std::vector<ElectricMembrane>& membran
                                     const std::vector<Vector>& potentials) {
   std::vector<Vector> fluxes(membranes.size());
   const std::vector<Vector> of_others = interaction.is_empty() ? fluxes : interaction.weighted_double_flux(potentials);
-  for_each_member(interaction.shares().own(membranes.size()), [&](std::size_t a) {
+  for_each_member(interaction.partition().local_indices(membranes.size()), [&](std::size_t a) {
     const Membrane& membrane = membranes[a].membrane;
     fluxes[a] =
         weighted_field_flux(membrane, membranes[a].electric.field) + weighted_hypersingular(membrane, potentials[a]);
@@ -253,7 +253,7 @@ std::vector<Vector> potentials_of_others(const std::vector<ElectricMembrane>& me
   for (const SecondKindSolution& density : densities) weighted.push_back(density.weighted);
   std::vector<Vector> result = interaction.single_potential(charges_of(contrasts_of(membranes), weighted));
   const std::vector<Vector> jumps = interaction.double_potential(potentials);
-  for (const std::size_t a : interaction.shares().own(result.size())) result[a] -= jumps[a];
+  for (const std::size_t a : interaction.partition().local_indices(result.size())) result[a] -= jumps[a];
   return result;
 }
 

@@ -120,7 +120,7 @@ TargetNodes mirrored(const Wall& wall, const TargetNodes& nodes) {
 }  // namespace
 
 struct Interaction::Parts {
-  Shares shares;
+  Partition partition;
   Exchange exchange;
   std::vector<SphereTransform> targets;     ///< of each membrane
   std::vector<NodeImages> images;           ///< of its nodes, at the originals of which layers are found
@@ -133,7 +133,7 @@ struct Interaction::Parts {
   /// Those of this rank.
   template <class Body>
   void for_each_membrane(const Body& body) const {
-    for_each_member(shares.own(n()), body);
+    for_each_member(partition.local_indices(n()), body);
   }
 
   /// A layer of all membranes on each of this rank.
@@ -194,17 +194,17 @@ struct Interaction::Parts {
         by_exchange[a] += block;
       }
     };
-    std::vector<Packing> to(static_cast<std::size_t>(shares.ranks().size()));
+    std::vector<Packing> to(static_cast<std::size_t>(partition.ranks().size()));
     for_each_block(near, from, [&](std::size_t a, bool by_image, const auto& block) {
-      if (!shares.owns(a)) to[static_cast<std::size_t>(shares.owner(a))](a, by_image, Matrix(block));
+      if (!partition.is_local(a)) to[static_cast<std::size_t>(partition.owner(a))](a, by_image, Matrix(block));
     });
     std::vector<std::string> parcels;
     for (Packing& parcel : to) parcels.push_back(parcel.take());
-    parcels = shares.ranks().exchange(parcels);
-    for (int rank = 0; rank < shares.ranks().size(); ++rank) {
-      if (rank == shares.ranks().rank()) {
+    parcels = partition.ranks().exchange(parcels);
+    for (int rank = 0; rank < partition.ranks().size(); ++rank) {
+      if (rank == partition.ranks().rank()) {
         for_each_block(near, from, [&](std::size_t a, bool by_image, const auto& block) {
-          if (shares.owns(a)) add(a, by_image, block);
+          if (partition.is_local(a)) add(a, by_image, block);
         });
       }
       Unpacking parcel(parcels[static_cast<std::size_t>(rank)]);
@@ -248,7 +248,7 @@ struct Interaction::Parts {
   [[nodiscard]] std::vector<std::vector<NearNodes>> find_near(const Serves& serves) const {
     std::vector<std::vector<NearNodes>> near(n());
     for (std::size_t b = 0; b < n(); ++b) {
-      if (!shares.owns(b)) continue;
+      if (!partition.is_local(b)) continue;
       std::map<std::size_t, std::vector<Use>> uses;
       for (std::size_t c = 0; c < n(); ++c) {
         if (exchange.original(c) != b) continue;
@@ -271,10 +271,10 @@ struct Interaction::Parts {
 };
 
 Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings,
-                         Instruments& instruments, Shares shares, Exchange exchange, SharedTransforms transforms,
+                         Instruments& instruments, Partition partition, Exchange exchange, SharedTransforms transforms,
                          const std::optional<Wall>& wall) {
   auto parts = std::make_unique<Parts>();
-  parts->shares = std::move(shares);
+  parts->partition = std::move(partition);
   parts->exchange = std::move(exchange);
   parts->wall = wall;
   PairSettings of_one = settings;
@@ -291,7 +291,7 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
     for (std::size_t a = 0; a < membranes.size(); ++a) {
       expanded.push_back({membranes[a].position, nodes[a].points, nodes[a].area_vectors});
     }
-    parts->expansions.emplace(expanded, settings.tolerance, transforms, parts->shares);
+    parts->expansions.emplace(expanded, settings.tolerance, transforms, parts->partition);
   }
   /// Of one membrane at nodes near to it.
   const auto add_layers = [&](NearLayers& near, std::size_t b, const std::vector<TargetNodes>& at,
@@ -342,7 +342,7 @@ Interaction::Interaction(Interaction&&) noexcept = default;
 
 bool Interaction::is_empty() const { return parts_->n() == 0; }
 
-const Shares& Interaction::shares() const { return parts_->shares; }
+const Partition& Interaction::partition() const { return parts_->partition; }
 
 const Exchange& Interaction::exchange() const { return parts_->exchange; }
 

@@ -8,7 +8,7 @@
 #include "bie/potentials/pair_layers.hpp"
 #include "bie/sphere/symmetry.hpp"
 #include "bie/sphere/transform.hpp"
-#include "bie/support/ranks/shares.hpp"
+#include "bie/support/ranks/partition.hpp"
 
 namespace vehd {
 
@@ -47,12 +47,12 @@ class Interaction {
   Interaction();
   /// @param settings     memory for rows is that of all
   /// @param instruments  targets of all pairs are counted there, of the membranes of this rank
-  /// @param exchange     which membranes are images of others, as the shares have it; most_summed_membranes then
+  /// @param exchange     which membranes are images of others, as the partition has it; most_summed_membranes then
   /// @param transforms   those known already; others are made
   /// @param wall         beside the membranes, or none; at a gap of rounding a membrane meets its image
   /// @throws ConvergenceError if two membranes intersect or are too near for any rule, on the rank of one of them
   Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings, Instruments& instruments,
-              Shares shares = {}, Exchange exchange = {}, SharedTransforms transforms = {},
+              Partition partition = {}, Exchange exchange = {}, SharedTransforms transforms = {},
               const std::optional<Wall>& wall = {});
 
   ~Interaction();
@@ -61,19 +61,19 @@ class Interaction {
   /// Is there no membrane that acts on another one or, by way of a wall, on itself?
   [[nodiscard]] bool is_empty() const;
   /// Which membranes are whose.
-  [[nodiscard]] const Shares& shares() const;
+  [[nodiscard]] const Partition& partition() const;
   /// Which membranes are images of others.
   [[nodiscard]] const Exchange& exchange() const;
   /// Gives all ranks what each has for its membranes, and images what follows from their originals: coefficients of
   /// scalars with the sign of V_m, each column one of them. Collective.
   template <typename Field>
   void gather_potentials(std::vector<Field>& fields) const {
-    shares().gather(fields,
-                    [this](const Field& f, std::size_t a) -> Field { return exchange().image(a).potential(f); });
+    partition().gather(fields,
+                       [this](const Field& f, std::size_t a) -> Field { return exchange().image(a).potential(f); });
   }
   /// Gathers vectors, [n_coefficients x 3]. Collective.
   void gather_vectors(std::vector<Matrix>& fields) const {
-    shares().gather(fields, [this](const Matrix& f, std::size_t a) { return exchange().image(a).vector(f); });
+    partition().gather(fields, [this](const Matrix& f, std::size_t a) { return exchange().image(a).vector(f); });
   }
 
   // Each throws std::logic_error for a layer that was not selected, and where the interaction is empty.

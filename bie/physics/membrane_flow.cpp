@@ -32,7 +32,7 @@ MembraneFlow::MembraneFlow(const std::vector<FlowMembrane>& membranes, const Int
       jumps[b] = ratio == 1.0 ? Matrix() : Matrix((1.0 - ratio) * jumps[b]);
     }
     std::vector<Matrix> of_others = interaction.stokes_double(jumps);
-    for_each_member(interaction.shares().own(of_others.size()),
+    for_each_member(interaction.partition().local_indices(of_others.size()),
                     [&](std::size_t a) { of_others[a] = membranes[a].membrane.velocity(std::move(of_others[a])); });
     interaction.gather_vectors(of_others);
     return v - stacked.stack(of_others);
@@ -48,7 +48,7 @@ std::vector<Matrix> MembraneFlow::velocities(const std::vector<Matrix>& weighted
                                              const std::vector<Matrix>& background) {
   std::vector<Matrix> result =
       interaction_.is_empty() ? std::vector<Matrix>(weighted.size()) : interaction_.stokes_single(weighted);
-  for_each_member(interaction_.shares().own(result.size()), [&](std::size_t a) {
+  for_each_member(interaction_.partition().local_indices(result.size()), [&](std::size_t a) {
     const Membrane& membrane = membranes_[a].membrane;
     if (result[a].size() == 0) result[a] = Matrix::Zero(n_coefficients(membrane.fine.order()), 3);
     if (weighted[a].size() > 0 && !membrane.layers.stokes_single.empty())

@@ -38,7 +38,7 @@ class MembraneFlow {
   MembraneFlow(MembraneFlow&&) noexcept;
 
   /// Which membranes are whose: of forces and velocities those of this rank count, see Interaction.
-  [[nodiscard]] const Shares& shares() const { return interaction_.shares(); }
+  [[nodiscard]] const Partition& partition() const { return interaction_.partition(); }
   /// Which membranes are images of others.
   [[nodiscard]] const Exchange& exchange() const { return interaction_.exchange(); }
   /// Is there a membrane that moves another one or, by way of a wall, itself?

@@ -22,8 +22,11 @@ constexpr double kPi = std::numbers::pi;
 }  // namespace
 
 FarExpansions::FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance,
-                             SharedTransforms& transforms, Shares shares)
-    : shares_(std::move(shares)), tolerance_(tolerance), translation_(kHighestDegree), far_from_(membranes.size()) {
+                             SharedTransforms& transforms, Partition partition)
+    : partition_(std::move(partition)),
+      tolerance_(tolerance),
+      translation_(kHighestDegree),
+      far_from_(membranes.size()) {
   std::vector<Vector3> centres;
   double largest = 0.0;
   for (const ExpandedMembrane& membrane : membranes) {
@@ -34,7 +37,7 @@ FarExpansions::FarExpansions(const std::vector<ExpandedMembrane>& membranes, dou
   for (int axis = 0; axis < 3; ++axis) derivative_.push_back(regular_derivative(axis, kHighestDegree));
   find_places(membranes, centres, transforms);
   for (std::size_t a = 0; a < membranes.size(); ++a) {
-    if (!shares_.owns(a)) continue;
+    if (!partition_.is_local(a)) continue;
     for (std::size_t b = 0; b < membranes.size(); ++b) {
       if (a == b) continue;
       const int degree = degree_of(places_[std::min(a, b)], places_[std::max(a, b)]);
@@ -55,13 +58,13 @@ void FarExpansions::find_places(const std::vector<ExpandedMembrane>& membranes, 
   std::vector<std::optional<Place>> places(membranes.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t a = 0; a < membranes.size(); ++a) {
-    if (shares_.owns(a)) places[a] = place_of(membranes[a], centres[a], nodes[a]);
+    if (partition_.is_local(a)) places[a] = place_of(membranes[a], centres[a], nodes[a]);
   }
   std::vector<double> radii(membranes.size());
   for (std::size_t a = 0; a < membranes.size(); ++a) {
     if (places[a]) radii[a] = places[a]->radius;
   }
-  shares_.gather(radii);
+  partition_.gather(radii);
   for (std::size_t a = 0; a < membranes.size(); ++a) {
     const Place of_another{centres[a] / scale_, radii[a], nodes[a], {}, {}, {}, MomentSums(Matrix()), {}, {}, {}};
     places_.push_back(places[a] ? *std::move(places[a]) : of_another);
@@ -154,11 +157,11 @@ std::vector<Matrix> FarExpansions::local(const std::vector<Matrix>& moments, boo
   for (std::size_t b = 0; b < places_.size(); ++b) {
     if (moments[b].size() > 0) turnable[b] = translation_.turnable(moments[b]);
   }
-  shares_.gather(turnable);
+  partition_.gather(turnable);
   std::vector<Matrix> result(places_.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t a = 0; a < places_.size(); ++a) {
-    if (!shares_.owns(a)) continue;
+    if (!partition_.is_local(a)) continue;
     std::vector<DistantMoments> sources;
     for (const FarSource& far : far_from_[a]) {
       if (turnable[far.membrane].size() == 0) continue;
@@ -203,7 +206,7 @@ std::vector<Matrix> FarExpansions::apply(PairLayer layer, const std::vector<Matr
   std::vector<Matrix> moments(places_.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t b = 0; b < places_.size(); ++b) {
-    if (densities[b].size() > 0 && shares_.owns(b)) moments[b] = moments_of(layer, places_[b], densities[b]);
+    if (densities[b].size() > 0 && partition_.is_local(b)) moments[b] = moments_of(layer, places_[b], densities[b]);
   }
   // With lengths over scale_.
   const double of_single = 1.0 / (4.0 * kPi * scale_);
@@ -213,7 +216,7 @@ std::vector<Matrix> FarExpansions::apply(PairLayer layer, const std::vector<Matr
   std::vector<Matrix> values = local(moments, is_stokes(layer));
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t a = 0; a < places_.size(); ++a) {
-    if (shares_.owns(a)) values[a] = factor * values_of(layer, places_[a], values[a]);
+    if (partition_.is_local(a)) values[a] = factor * values_of(layer, places_[a], values[a]);
   }
   return values;
 }

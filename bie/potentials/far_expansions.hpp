@@ -7,7 +7,7 @@
 #include "bie/potentials/near_rows.hpp"
 #include "bie/potentials/smooth_grid.hpp"
 #include "bie/potentials/solid_harmonics.hpp"
-#include "bie/support/ranks/shares.hpp"
+#include "bie/support/ranks/partition.hpp"
 
 namespace vehd {
 
@@ -26,9 +26,9 @@ struct ExpandedMembrane {
 class FarExpansions {
  public:
   /// @param tolerance  relative, below 1
-  /// @param shares     which membranes this rank has moments and values of; collective, as are all sums
+  /// @param partition     which membranes this rank has moments and values of; collective, as are all sums
   FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance, SharedTransforms& transforms,
-                Shares shares = {});
+                Partition partition = {});
 
   /// Whether the sums at `target` include the layers of `source`.
   [[nodiscard]] bool is_far(std::size_t target, std::size_t source) const;
@@ -70,7 +70,7 @@ class FarExpansions {
   /// A layer without its factor at the targets of one membrane, from local coefficients.
   [[nodiscard]] Matrix values_of(PairLayer layer, const Place& place, const Matrix& coefficients) const;
 
-  Shares shares_;
+  Partition partition_;
   double tolerance_, scale_ = 1.0;
   AxisTranslation translation_;
   std::vector<Eigen::SparseMatrix<double>> derivative_;

@@ -5,7 +5,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "bie/support/errors.hpp"
-#include "bie/support/ranks/shares.hpp"
+#include "bie/support/ranks/partition.hpp"
 #include "tests/support/forked_ranks.hpp"
 
 using namespace vehd;
@@ -22,9 +22,9 @@ void check_all_say(const std::vector<std::string>& said, const std::string& expe
 
 std::vector<int> owners(const std::vector<double>& costs, int n_ranks) {
   const std::string said = on_ranks(n_ranks, [&](const Ranks& ranks) {
-                             const Shares shares(ranks, costs);
+                             const Partition partition(ranks, costs);
                              std::vector<int> all;
-                             for (std::size_t a = 0; a < costs.size(); ++a) all.push_back(shares.owner(a));
+                             for (std::size_t a = 0; a < costs.size(); ++a) all.push_back(partition.owner(a));
                              return packed(all);
                            }).front();
   return unpacked<std::vector<int>>(said);
@@ -66,8 +66,8 @@ BOOST_AUTO_TEST_CASE(costs_are_shared_in_the_order_of_the_parts) {
 BOOST_AUTO_TEST_CASE(every_rank_gets_the_values_of_all_parts) {
   for (const int n_ranks : {1, 2, 3}) {
     const auto said = on_ranks(n_ranks, [](const Ranks& ranks) {
-      const Shares shares(ranks, {1.0, 1.0, 1.0, 1.0, 1.0});
-      const auto values = shares.of_all(
+      const Partition partition(ranks, {1.0, 1.0, 1.0, 1.0, 1.0});
+      const auto values = partition.of_all(
           5, [](std::size_t a) { return Vector(Vector::Constant(2, 0.1 * double(a))); },
           [](const Vector& of_original, std::size_t) { return of_original; });
       std::string text;
@@ -81,14 +81,14 @@ BOOST_AUTO_TEST_CASE(every_rank_gets_the_values_of_all_parts) {
 BOOST_AUTO_TEST_CASE(images_follow_from_their_originals_on_every_rank) {
   for (const int n_ranks : {1, 2, 3}) {
     const auto said = on_ranks(n_ranks, [](const Ranks& ranks) {
-      const Shares shares(ranks, std::vector<double>(6, 1.0), {0, 1, 1, 0, 4, 4});
+      const Partition partition(ranks, std::vector<double>(6, 1.0), {0, 1, 1, 0, 4, 4});
       std::string text;
       for (std::size_t a = 0; a < 6; ++a) {
-        if (shares.is_image(a)) text += shares.owns(a) ? "done " : fmt::format("{} ", a);
+        if (partition.is_image(a)) text += partition.is_local(a) ? "done " : fmt::format("{} ", a);
       }
       std::vector<double> done(6);
-      for (const std::size_t a : shares.own(6)) done[a] = 0.5 * static_cast<double>(a);
-      shares.gather(done, [](double of_original, std::size_t a) { return of_original + static_cast<double>(a); });
+      for (const std::size_t a : partition.local_indices(6)) done[a] = 0.5 * static_cast<double>(a);
+      partition.gather(done, [](double of_original, std::size_t a) { return of_original + static_cast<double>(a); });
       for (const double value : done) text += fmt::format("{} ", value);
       return text;
     });

@@ -57,7 +57,7 @@ std::vector<Matrix> forces_of_potentials(const std::vector<VesicleTask>& tasks,
   solved.iterations_electric += densities.front().report.iterations;
   const std::vector<Vector> of_others = potentials_of_others(in_field, interaction, potentials, densities);
   std::vector<Matrix> forces(tasks.size());
-  for_each_member(interaction.shares().own(tasks.size()), [&](std::size_t a) {
+  for_each_member(interaction.partition().local_indices(tasks.size()), [&](std::size_t a) {
     const ElectricParameters& electric = in_field[a].electric;
     const ElectricTraces traces =
         electric_traces(electric, tasks[a].membrane, potentials[a], densities[a], of_others[a]);
@@ -80,7 +80,7 @@ std::vector<Matrix> forces_of_charges(const std::vector<VesicleTask>& tasks,
   require_converged(fields.front().report, "V_m of free charges");
   solved.iterations_electric += fields.front().report.iterations;
   std::vector<Matrix> forces(tasks.size());
-  for (const std::size_t a : solved.interaction->shares().own(tasks.size())) {
+  for (const std::size_t a : solved.interaction->partition().local_indices(tasks.size())) {
     const VesicleTask& task = tasks[a];
     const MembraneCurrent current = membrane_current(membranes[a], task.state.poration);
     task.solution.rate =
@@ -99,7 +99,7 @@ std::vector<Matrix> forces_of_amplitudes(const std::vector<VesicleTask>& tasks,
   require_converged(averaged.report, "amplitudes of V_m in an averaged field");
   solved.iterations_electric += averaged.report.iterations;
   std::vector<Matrix> forces(tasks.size());
-  for (const std::size_t a : solved.interaction->shares().own(tasks.size())) {
+  for (const std::size_t a : solved.interaction->partition().local_indices(tasks.size())) {
     AveragedField& field = averaged.membranes[a];
     tasks[a].fields.potential_amplitude = std::move(field.potential);
     tasks[a].fields.charge_amplitude = std::move(field.charge);

@@ -35,13 +35,13 @@ void visit_members(Vesicle& vesicle, Visit& visit) {
 
 /// Gives all ranks what the owner of each vesicle has solved for, its fields and rates, and images what follows from
 /// their originals. Membranes, operators and what lives on a grid stay with their owner. Collective.
-void gather_from_owners(const Shares& shares, const Exchange& exchange, SolvedFields& solved) {
-  if (shares.ranks().is_alone() && !exchange.any()) return;
+void gather_from_owners(const Partition& partition, const Exchange& exchange, SolvedFields& solved) {
+  if (partition.ranks().is_alone() && !exchange.any()) return;
   std::vector<SolvedVesicle> all(solved.vesicles.size());
   for (std::size_t a = 0; a < all.size(); ++a) {
     all[a] = {std::move(solved.fields.vesicles[a]), std::move(solved.vesicles[a].rate)};
   }
-  shares.gather(all, [&exchange](const SolvedVesicle& of_original, std::size_t a) -> SolvedVesicle {
+  partition.gather(all, [&exchange](const SolvedVesicle& of_original, std::size_t a) -> SolvedVesicle {
     const ImageOfFields& image = exchange.image(a);
     return {image_of(image, of_original.fields), image_of(image, of_original.rate)};
   });
@@ -81,7 +81,7 @@ std::shared_ptr<const Interaction> interaction_of(const std::vector<VesicleTask>
     membranes.push_back({task.state.position, task.space.targets(), selection, task.space.subspace().symmetry()});
   }
   return std::make_shared<const Interaction>(membranes, pair_settings(tasks.front().settings), instruments,
-                                             discretisation.shares(), discretisation.symmetry().exchange,
+                                             discretisation.partition(), discretisation.symmetry().exchange,
                                              discretisation.pair_transforms(), wall);
 }
 
@@ -92,14 +92,15 @@ void solve(const std::vector<VesicleTask>& tasks, double time, Limit limit, Inst
     const auto timer = instruments.time("electric");
     forces_electric = solve_electric(tasks, time, limit, solved);
   }
-  for (const std::size_t a : solved.interaction->shares().own(tasks.size())) solve_poration(tasks[a], time, limit);
+  for (const std::size_t a : solved.interaction->partition().local_indices(tasks.size()))
+    solve_poration(tasks[a], time, limit);
   if (tasks.front().model.mobile) solve_velocities(tasks, forces_electric, time, limit, instruments, solved);
 }
 
 SolvedFields solve_all(const Model& model, const Discretisation& discretisation, const State& state,
                        Instruments& instruments, const SolvedFields* previous, Limit limit, Shapes shapes) {
   const std::size_t n = state.vesicles.size();
-  const Shares& shares = discretisation.shares();
+  const Partition& partition = discretisation.partition();
   SolvedFields solved;
   solved.electric_inactive = electric_inactive(model, state, limit);
   solved.fields.vesicles.resize(n);
@@ -112,7 +113,7 @@ SolvedFields solve_all(const Model& model, const Discretisation& discretisation,
     solution.recycled = state.vesicles[a].recycled;
     solution.membrane = reuse ? previous->vesicles[a].membrane
                               : assembled(model, model.vesicles[a], discretisation.vesicle(a), state.vesicles[a],
-                                          !solved.electric_inactive, shares.owns(a), of_one);
+                                          !solved.electric_inactive, partition.is_local(a), of_one);
     // What truncation does to a sphere within a step makes it no other membrane.
     solution.is_sphere =
         previous != nullptr
@@ -127,7 +128,7 @@ SolvedFields solve_all(const Model& model, const Discretisation& discretisation,
   solved.interaction =
       reuse ? previous->interaction : interaction_of(tasks, !solved.electric_inactive, discretisation, instruments);
   solve(tasks, state.time, limit, instruments, solved);
-  gather_from_owners(solved.interaction->shares(), discretisation.symmetry().exchange, solved);
+  gather_from_owners(solved.interaction->partition(), discretisation.symmetry().exchange, solved);
   return solved;
 }
 
@@ -141,7 +142,7 @@ PairSettings pair_settings(const NumericalSettings& settings) {
 
 SolvedFields solve_fields(const Model& model, const Discretisation& discretisation, const State& state,
                           Instruments& instruments, const SolvedFields* previous, Limit limit, Shapes shapes) {
-  return discretisation.shares().ranks().together(
+  return discretisation.partition().ranks().together(
       [&] { return solve_all(model, discretisation, state, instruments, previous, limit, shapes); });
 }
 
@@ -157,7 +158,7 @@ Evaluation evaluate(const Model& model, const Discretisation& discretisation, co
                                          evaluation.fields.vesicles[a]);
     return diagnostics;
   };
-  evaluation.diagnostics.vesicles = discretisation.shares().of_all(
+  evaluation.diagnostics.vesicles = discretisation.partition().of_all(
       state.vesicles.size(),
       [&](std::size_t a) {
         const bool same = previous != nullptr && previous->vesicles[a].membrane == evaluation.vesicles[a].membrane;

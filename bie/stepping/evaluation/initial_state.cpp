@@ -41,7 +41,7 @@ SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, cons
 void find_steady_potentials(const Model& model, const Discretisation& discretisation, State& state,
                             Instruments& instruments) {
   const bool interacts = state.vesicles.size() > 1 || model.wall;
-  const Shares& shares = discretisation.shares();
+  const Partition& partition = discretisation.partition();
   std::vector<Membrane> frozen;
   frozen.reserve(state.vesicles.size());
   std::vector<InteractingMembrane> interacting;
@@ -51,7 +51,7 @@ void find_steady_potentials(const Model& model, const Discretisation& discretisa
     const VesicleModel& vesicle = model.vesicles[a];
     const MembraneSpace& space = discretisation.vesicle(a);
     const Matrix& position = state.vesicles[a].position;
-    const LayerSelection layers = shares.owns(a) ? LayerSelection{true, true, true, false} : LayerSelection{};
+    const LayerSelection layers = partition.is_local(a) ? LayerSelection{true, true, true, false} : LayerSelection{};
     frozen.push_back(membrane_at(space, position, layers, 1.0, instruments));
     frozen.back().material = material_at(space, state.vesicles[a].material);
     membranes.push_back({{electric_parameters(model, vesicle), frozen.back()}, vesicle.charging});
@@ -59,9 +59,9 @@ void find_steady_potentials(const Model& model, const Discretisation& discretisa
                            space.subspace().symmetry()});
     potentials.push_back(state.vesicles[a].transmembrane_potential);
   }
-  const Interaction interaction =
-      interacts ? Interaction(interacting, {}, instruments, shares, discretisation.symmetry().exchange, {}, model.wall)
-                : Interaction();
+  const Interaction interaction = interacts ? Interaction(interacting, {}, instruments, partition,
+                                                          discretisation.symmetry().exchange, {}, model.wall)
+                                            : Interaction();
   require_converged(steady_potentials(membranes, interaction, discretisation.settings().electric_tolerance, potentials),
                     "steady membrane potential");
   for (std::size_t a = 0; a < frozen.size(); ++a) {
@@ -94,7 +94,7 @@ State initial_state(const Model& model, const Discretisation& discretisation,
     if (!std::all_of(membranes.begin(), membranes.end(), is_steady)) {
       throw InputError("some vesicles start with a steady V_m, others do not; accepted: all of them or none");
     }
-    discretisation.shares().ranks().together(
+    discretisation.partition().ranks().together(
         [&] { find_steady_potentials(model, discretisation, state, instruments); });
   }
   return with_images(discretisation.symmetry().exchange, std::move(state));

@@ -53,7 +53,7 @@ Matrix symmetric(const Membrane& membrane, const Matrix& velocity) {
 /// Velocities under the forcing and the tensions, Eq. (27b).
 void solve_flow(const std::vector<VesicleTask>& tasks, const std::vector<Forcing>& forcing, SolvedFields& solved) {
   std::vector<FlowMembrane> membranes;
-  const std::vector<std::size_t> own = solved.interaction->shares().own(tasks.size());
+  const std::vector<std::size_t> own = solved.interaction->partition().local_indices(tasks.size());
   std::vector<Matrix> weighted(tasks.size()), background;
   std::vector<bool> is_sphere;
   std::vector<Vector> start;
@@ -93,7 +93,7 @@ void solve_flow(const std::vector<VesicleTask>& tasks, const std::vector<Forcing
 void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<Matrix>& forces_electric, double time,
                       Limit limit, Instruments& instruments, SolvedFields& solved) {
   const Model& model = tasks.front().model;
-  const std::vector<std::size_t> own = solved.interaction->shares().own(tasks.size());
+  const std::vector<std::size_t> own = solved.interaction->partition().local_indices(tasks.size());
   std::vector<Forcing> forcing;
   for (std::size_t a = 0; a < tasks.size(); ++a) {
     forcing.push_back(no_forcing(tasks[a]));

@@ -48,7 +48,7 @@ std::vector<RecycledSubspace> suitable(const std::vector<FlowEquations>& equatio
 FlowSystem::FlowSystem(std::vector<FlowEquations> equations, MembraneFlow& flow, std::vector<RecycledSubspace> recycled)
     : equations_(std::move(equations)),
       flow_(flow),
-      own_(flow.shares().own(equations_.size())),
+      own_(flow.partition().local_indices(equations_.size())),
       rows_(stacked_rows(equations_)),
       own_velocities_(stacked_velocities(equations_, own_)),
       recycled_(suitable(equations_, std::move(recycled))),
@@ -87,7 +87,7 @@ Vector FlowSystem::preconditioned(const Vector& residual) const {
 }
 
 void FlowSystem::gather(std::vector<Vector>& rows) const {
-  flow_.shares().gather(rows, [&](const Vector& of_original, std::size_t a) {
+  flow_.partition().gather(rows, [&](const Vector& of_original, std::size_t a) {
     return equations_[a].image(flow_.exchange().image(a), of_original);
   });
 }

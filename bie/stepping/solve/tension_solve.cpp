@@ -31,7 +31,7 @@ std::vector<FlowEquations> tension_equations(const std::vector<FlowMembrane>& me
     options.holds_shape = is_sphere[a] && flow.interacts();
     all.emplace_back(membranes[a], std::move(options));
   }
-  if (are_many(std::ssize(all))) find_inverses(all, flow.shares().own(all.size()));
+  if (are_many(std::ssize(all))) find_inverses(all, flow.partition().local_indices(all.size()));
   return all;
 }
 
@@ -48,7 +48,7 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
                               const std::vector<Vector>& start, const std::vector<RecycledSubspace>& recycled,
                               double tolerance) {
   const std::size_t n = membranes.size();
-  const std::vector<std::size_t> own = flow.shares().own(n);
+  const std::vector<std::size_t> own = flow.partition().local_indices(n);
   const bool recycles = !are_many(std::ssize(membranes)) && std::ranges::count(is_sphere, true) == 0;
   FlowSystem system(tension_equations(membranes, is_sphere, flow), flow,
                     recycles ? recycled : std::vector<RecycledSubspace>());
@@ -88,7 +88,7 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   result.velocities.resize(n);
   for (const std::size_t a : own) result.velocities[a] = before[a] + solution.velocities[a];
   for (std::size_t a = 0; a < n; ++a) {
-    result.force.push_back(flow.shares().owns(a) ? system.equations()[a].force(unknowns[a]) : Matrix());
+    result.force.push_back(flow.partition().is_local(a) ? system.equations()[a].force(unknowns[a]) : Matrix());
     result.tension.push_back(std::move(unknowns[a].tension));
   }
   return result;

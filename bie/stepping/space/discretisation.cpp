@@ -72,13 +72,13 @@ void Discretisation::prepare_pairs(const Ranks& ranks) {
   if (n_vesicles() < 2) return;
   std::vector<double> costs;
   for (const auto& space : vesicles_) costs.push_back(std::pow(space->order() + 1.0, 4));
-  shares_ = Shares(ranks, costs, symmetry_.exchange.originals());
+  partition_ = Partition(ranks, costs, symmetry_.exchange.originals());
 }
 
 Discretisation Discretisation::with(std::size_t vesicle, const ResolutionLevel& level) const {
   Discretisation result = *this;
   result.vesicles_[vesicle] = space_of(level);
-  result.prepare_pairs(shares_.ranks());
+  result.prepare_pairs(partition_.ranks());
   return result;
 }
 
@@ -88,7 +88,7 @@ bool Discretisation::leaves_threads_idle() const {
     const auto of_velocity = static_cast<double>(space->subspace().vectors().size());
     entries += of_velocity * of_velocity;
   }
-  return shares_.ranks().is_alone() && entries <= most_entries_of_small_operators;
+  return partition_.ranks().is_alone() && entries <= most_entries_of_small_operators;
 }
 
 std::shared_ptr<const MembraneSpace> Discretisation::space_of(const ResolutionLevel& level) const {

@@ -9,7 +9,7 @@
 #include "bie/sphere/symmetry.hpp"
 #include "bie/sphere/transform.hpp"
 #include "bie/support/instruments.hpp"
-#include "bie/support/ranks/shares.hpp"
+#include "bie/support/ranks/partition.hpp"
 
 namespace vehd {
 
@@ -93,7 +93,7 @@ class Discretisation {
   [[nodiscard]] const MembraneSpace& vesicle(std::size_t a) const { return *vesicles_[a]; }
   [[nodiscard]] std::size_t n_vesicles() const { return vesicles_.size(); }
   /// Which vesicle has its operators on which rank.
-  [[nodiscard]] const Shares& shares() const { return shares_; }
+  [[nodiscard]] const Partition& partition() const { return partition_; }
   /// Transforms that layers between the vesicles need at every step, as far as they take little memory.
   [[nodiscard]] const SharedTransforms& pair_transforms() const { return pair_transforms_; }
   /// Is solving for one state too little for all threads, so that they had better have a state each? Never where ranks
@@ -107,7 +107,7 @@ class Discretisation {
   NumericalSettings settings_;
   Symmetry symmetry_;
   std::vector<std::shared_ptr<const MembraneSpace>> vesicles_;
-  Shares shares_;
+  Partition partition_;
   SharedTransforms pair_transforms_;
 };
 

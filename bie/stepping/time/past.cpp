@@ -126,7 +126,7 @@ void StepOperations::store_past(const std::vector<NodeSolution>& nodes, State& s
   times[0] = start_.time - end.time;
   for (Index j = 1; j < n_times; ++j) times[j] = nodes[static_cast<std::size_t>(j - 1)].time - end.time;
   std::vector<SentPast> all(start_.vesicles.size());
-  for_each_member(shares().own(all.size()), [&](std::size_t a) {
+  for_each_member(partition().local_indices(all.size()), [&](std::size_t a) {
     const SurfaceFields& from = start_.vesicles[a];
     const SurfaceFields& to = end.vesicles[a].material;
     const Matrix now = columns_of<Unknowns>(to);
@@ -140,7 +140,7 @@ void StepOperations::store_past(const std::vector<NodeSolution>& nodes, State& s
     all[a].past = smooth_past(times, GridMove(fine, to.position - from.position, to.position).carried(past));
   });
   // Images have that of their originals.
-  shares().gather(all, [](const SentPast&, std::size_t) { return SentPast{}; });
+  partition().gather(all, [](const SentPast&, std::size_t) { return SentPast{}; });
   for (std::size_t a = 0; a < all.size(); ++a) state.vesicles[a].past = std::move(all[a].past);
   state.past_times = std::move(times);
 }

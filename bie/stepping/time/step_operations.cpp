@@ -124,7 +124,7 @@ std::vector<NodeSolution> StepOperations::implicit_solves(const std::vector<Impl
 /// Makes the systems of this size, which threads then only look up.
 void StepOperations::prepare(double dt) {
   if (!model_.mobile) return;
-  for (const std::size_t a : shares().own(flow_.size())) {
+  for (const std::size_t a : partition().local_indices(flow_.size())) {
     if (!at_start_.vesicles[a].is_sphere) static_cast<void>(flow_[a].of(dt));
   }
 }
@@ -241,9 +241,9 @@ State StepOperations::passed_state(const NodeSolution& node) const {
 State StepOperations::end_state(const NodeSolution& node) const {
   State state = passed_state(node);
   std::vector<SentScalars> flow(state.vesicles.size());
-  for (const std::size_t a : shares().own(flow.size())) flow[a] = SentScalars{flow_[a].recycled()};
+  for (const std::size_t a : partition().local_indices(flow.size())) flow[a] = SentScalars{flow_[a].recycled()};
   // What is known of images serves nobody.
-  shares().gather(flow, [](const SentScalars&, std::size_t) { return SentScalars{}; });
+  partition().gather(flow, [](const SentScalars&, std::size_t) { return SentScalars{}; });
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     state.vesicles[a].recycled = after_step(at_start_.vesicles[a].recycled, flow[a].known, iterations_.flow);
   }
@@ -279,13 +279,13 @@ std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& star
       throw;
     }
   };
-  shares().ranks().together([&] {
+  partition().ranks().together([&] {
     try {
-      for_each_member(shares().own(all.size()), work.instruments, move);
+      for_each_member(partition().local_indices(all.size()), work.instruments, move);
     } catch (const ConvergenceError&) {
       // Which vesicle is the first without a motion all ranks have to say.
     }
-    shares().gather(all, [this](const CountedMotion& of_original, std::size_t a) -> CountedMotion {
+    partition().gather(all, [this](const CountedMotion& of_original, std::size_t a) -> CountedMotion {
       const ImageOfFields& image = discretisation_.symmetry().exchange.image(a);
       Motion motion = of_original.motion;
       for (SurfaceFields* fields : {&motion.material, &motion.arrived}) *fields = image_of(image, *fields);

@@ -185,7 +185,7 @@ class StepOperations {
   [[nodiscard]] double poration_difference(std::size_t vesicle, const SurfaceFields& a, const SurfaceFields& b) const;
   void take(Unknowns charged, double time, std::size_t vesicle, SurfaceFields& fields) const;
   void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
-  [[nodiscard]] const Shares& shares() const { return discretisation_.shares(); }
+  [[nodiscard]] const Partition& partition() const { return discretisation_.partition(); }
   [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end, Instruments& instruments) const;
   using RigidMotion = std::function<SphereMotion(std::size_t vesicle, const Membrane& sphere)>;
   /// Solves and projects all vesicles, each on its rank; V_m of the start is that of the end. Collective.

@@ -1,11 +1,11 @@
-#include "bie/support/ranks/shares.hpp"
+#include "bie/support/ranks/partition.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 namespace vehd {
 
-Shares::Shares(Ranks ranks, const std::vector<double>& costs, std::vector<std::size_t> originals)
+Partition::Partition(Ranks ranks, const std::vector<double>& costs, std::vector<std::size_t> originals)
     : ranks_(std::move(ranks)), originals_(std::move(originals)) {
   if (ranks_.is_alone()) return;
   std::vector<double> done = costs;
@@ -22,12 +22,12 @@ Shares::Shares(Ranks ranks, const std::vector<double>& costs, std::vector<std::s
   }
 }
 
-std::vector<std::size_t> Shares::own(std::size_t n) const {
-  std::vector<std::size_t> own;
+std::vector<std::size_t> Partition::local_indices(std::size_t n) const {
+  std::vector<std::size_t> local;
   for (std::size_t part = 0; part < n; ++part) {
-    if (owns(part)) own.push_back(part);
+    if (is_local(part)) local.push_back(part);
   }
-  return own;
+  return local;
 }
 
 }  // namespace vehd

@@ -13,22 +13,22 @@ namespace vehd {
 /// Which of several parts of a work, such as vesicles, each rank does. A rank owns neighbours in their order, so that
 /// what ranks send one after the other is in the order of the parts: sums in that order have the same bits for any
 /// number of ranks. Parts that are images of others are not computed but mapped from the results of their originals.
-class Shares {
+class Partition {
  public:
   /// One rank does all, however many there are.
-  Shares() = default;
+  Partition() = default;
   /// @param costs      of each part; every rank gets about the same
   /// @param originals  of each part the one that it is an image of, or itself; empty where there are no images
-  Shares(Ranks ranks, const std::vector<double>& costs, std::vector<std::size_t> originals = {});
+  Partition(Ranks ranks, const std::vector<double>& costs, std::vector<std::size_t> originals = {});
 
   [[nodiscard]] const Ranks& ranks() const { return ranks_; }
   /// Rank of a part; an image has that of its original.
   [[nodiscard]] int owner(std::size_t part) const { return owners_.empty() ? 0 : owners_[part]; }
   /// Does this rank do the part? None does an image.
-  [[nodiscard]] bool owns(std::size_t part) const { return !is_image(part) && has(part); }
+  [[nodiscard]] bool is_local(std::size_t part) const { return !is_image(part) && has(part); }
   [[nodiscard]] bool is_image(std::size_t part) const { return !originals_.empty() && originals_[part] != part; }
-  /// The parts, of n, that this rank owns.
-  [[nodiscard]] std::vector<std::size_t> own(std::size_t n) const;
+  /// The indices of those of n parts that this rank owns.
+  [[nodiscard]] std::vector<std::size_t> local_indices(std::size_t n) const;
 
   /// The values of all parts from their owners; those of others count for nothing before. Collective.
   /// @param image  (value of the original, part) ↦ value of an image
@@ -63,7 +63,7 @@ class Shares {
   auto of_all(std::size_t n, const Part& part, const Image& image) const {
     std::vector<std::invoke_result_t<const Part&, std::size_t>> values(n);
     ranks_.together([&] {
-      for_each_member(own(n), [&](std::size_t a) { values[a] = part(a); });
+      for_each_member(local_indices(n), [&](std::size_t a) { values[a] = part(a); });
       gather(values, image);
     });
     return values;
