@@ -3,6 +3,10 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <tuple>
+#include <vector>
+
+#include "bie/physics/point_sources.hpp"
 #include "bie/support/types.hpp"
 
 namespace vehd::python {
@@ -18,5 +22,14 @@ py::object view(const Matrix& values, py::handle owner);
 
 /// A result with one axis where the argument that it was made from has one, with two otherwise.
 py::object shaped_like(const py::array& argument, Matrix result);
+
+/// Point sources as Python has them: place, strength, whether it is inside.
+using GivenSources = std::vector<std::tuple<Vector3, double, bool>>;
+
+inline std::vector<PointSource> sources_of(const GivenSources& given) {
+  std::vector<PointSource> sources;
+  for (const auto& [position, strength, inside] : given) sources.push_back({position, strength, inside});
+  return sources;
+}
 
 }  // namespace vehd::python

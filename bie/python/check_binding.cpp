@@ -10,8 +10,8 @@
 #include "bie/comparison/check.hpp"
 #include "bie/comparison/check_input.hpp"
 #include "bie/files/run_reader.hpp"
+#include "bie/python/arrays.hpp"
 #include "bie/python/bindings.hpp"
-#include "bie/python/point_sources.hpp"
 #include "bie/runs/given_times.hpp"
 #include "bie/support/file_system.hpp"
 

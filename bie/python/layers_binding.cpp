@@ -7,7 +7,7 @@
 #include "bie/potentials/off_surface.hpp"
 #include "bie/python/arrays.hpp"
 #include "bie/python/bindings.hpp"
-#include "bie/python/layer_matrix.hpp"
+#include "bie/python/surface_object.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd::python {

@@ -9,7 +9,6 @@
 #include "bie/physics/electric.hpp"
 #include "bie/python/arrays.hpp"
 #include "bie/python/bindings.hpp"
-#include "bie/python/point_sources.hpp"
 #include "bie/python/surface_object.hpp"
 #include "bie/stepping/solve/flow_equations.hpp"
 #include "bie/stepping/solve/tension_solve.hpp"

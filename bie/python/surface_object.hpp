@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <mutex>
+#include <string>
 
 #include "bie/physics/membrane.hpp"
 #include "bie/stepping/space/discretisation.hpp"
@@ -44,5 +46,29 @@ class SurfaceObject {
 
 /// Settings of a degree and a level. @throws ShapeError if the degree is out of range
 NumericalSettings settings_of(const Matrix& position, const SurfaceObject::ResolutionLevel& level);
+
+/// The layer operators of a surface.
+enum class Layer { single, double_layer, adjoint, hypersingular, stokes_single, stokes_double };
+
+/// One layer operator from coefficients to coefficients of degree p, plain or weighted as in LayerOperators; principal
+/// values. Vector densities of the Stokes layers are three scalars one after the other.
+class LayerMatrix {
+ public:
+  LayerMatrix(std::shared_ptr<SurfaceObject> surface, Layer layer, bool weighted);
+
+  /// Number of rows and of columns.
+  [[nodiscard]] Index size() const;
+  /// @param density  [size] or [size x n]
+  /// @throws ShapeError
+  [[nodiscard]] Matrix apply(const Matrix& density) const;
+  /// What `apply` does, as a matrix, [size x size].
+  [[nodiscard]] Matrix matrix() const;
+
+ private:
+  std::shared_ptr<SurfaceObject> surface_;
+  Index n_;                       ///< coefficients of a scalar field
+  const ScalarOperator* scalar_;  ///< or null
+  const StokesOperator* stokes_;
+};
 
 }  // namespace vehd::python
