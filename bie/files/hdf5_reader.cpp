@@ -13,12 +13,27 @@ namespace {
 /// No dataset or text of this program is larger, by far; what claims to be would only exhaust the memory.
 constexpr hsize_t most_values = hsize_t{1} << 21;
 constexpr std::size_t longest_text = std::size_t{1} << 24;
+/// Most numbers that deflate makes of one.
+constexpr hsize_t most_inflation = 1032;
 /// Nor has one as many objects, or groups as deep in each other; links that lead back to a group above do not end.
 constexpr std::size_t most_objects = std::size_t{1} << 16;
 constexpr int deepest_group = 8;
 
 bool is_kind(hid_t type, H5T_class_t kind, std::size_t bytes) {
   return H5Tget_class(type) == kind && H5Tget_size(type) == bytes;
+}
+
+/// Is a dataset one chunk, shuffled and deflated?
+bool is_deflated(hid_t properties, const std::vector<hsize_t>& extents) {
+  if (H5Pget_layout(properties) != H5D_CHUNKED) return false;
+  std::vector<hsize_t> chunk(extents.size());
+  if (H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data()) != std::ssize(chunk)) return false;
+  const auto filter = [&](unsigned i) {
+    std::size_t n_parameters = 0;
+    return H5Pget_filter2(properties, i, nullptr, &n_parameters, nullptr, 0, nullptr, nullptr);
+  };
+  return chunk == extents && H5Pget_nfilters(properties) == 2 && filter(0) == H5Z_FILTER_SHUFFLE &&
+         filter(1) == H5Z_FILTER_DEFLATE;
 }
 
 herr_t collect_attribute(hid_t, const char* name, const H5A_info_t*, void* names) {
@@ -116,9 +131,14 @@ Hdf5Reader::OpenDataset Hdf5Reader::open_dataset(const std::string& dataset) con
   const std::size_t value_bytes = H5Tget_size(result.type.id());
   result.extents.resize(static_cast<std::size_t>(rank));
   H5Sget_simple_extent_dims(space.id(), result.extents.data(), nullptr);
+  const Hdf5Handle properties(H5Dget_create_plist(result.handle.id()), H5Pclose);
+  const bool deflated = properties.valid() && is_deflated(properties.id(), result.extents);
+  if (!properties.valid() || (!deflated && H5Pget_layout(properties.id()) == H5D_CHUNKED)) {
+    refuse(fmt::format("dataset {} has an unknown layout", dataset));
+  }
   // A damaged layout may claim more than the file has.
-  const hsize_t stored =
-      value_bytes == 0 ? 0 : std::min<hsize_t>(H5Dget_storage_size(result.handle.id()), bytes_) / value_bytes;
+  const hsize_t bytes = std::min<hsize_t>(H5Dget_storage_size(result.handle.id()), bytes_);
+  const hsize_t stored = value_bytes == 0 ? 0 : bytes / value_bytes * (deflated ? most_inflation : 1);
   for (const hsize_t extent : result.extents) {
     // Checked before each product so that it cannot overflow.
     if (extent == 0 || result.n_values > stored / extent) {

@@ -32,6 +32,19 @@ Hdf5Handle dataset_properties() {
   return properties;
 }
 
+/// Fields of a symmetric shape repeat their bytes. Of smaller datasets the description of the filters is most.
+constexpr std::size_t least_deflated_bytes = 1 << 10;
+constexpr unsigned deflate_level = 1;
+
+/// As one chunk, deflated.
+Hdf5Handle deflated(const Hdf5Handle& properties, const std::vector<hsize_t>& extents) {
+  Hdf5Handle result(H5Pcopy(properties.id()), H5Pclose);
+  H5Pset_chunk(result.id(), static_cast<int>(extents.size()), extents.data());
+  H5Pset_shuffle(result.id());
+  H5Pset_deflate(result.id(), deflate_level);
+  return result;
+}
+
 /// A snapshot's groups have about a dozen members, which cost least as a plain list.
 Hdf5Handle group_properties() {
   constexpr unsigned most_in_list = 24;
@@ -63,7 +76,10 @@ bool put_attribute(hid_t object, const std::string& name, const std::string& val
 }  // namespace
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode)
-    : name_(path.string()), dataset_properties_(dataset_properties()), group_properties_(group_properties()) {
+    : name_(path.string()),
+      deflates_(mode != Mode::in_memory),
+      dataset_properties_(dataset_properties()),
+      group_properties_(group_properties()) {
   silence_hdf5();
   errno = 0;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -77,6 +93,8 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode)
     const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_file_space_strategy(creation.id(), H5F_FSPACE_STRATEGY_PAGE, false, 1);
     H5Pset_file_space_page_size(creation.id(), page_bytes);
+    // Every index of chunks has one of them.
+    H5Pset_istore_k(creation.id(), 1);
     create(creation.id(), access.id());
   } else {
     open(access.id(), mode);
@@ -132,9 +150,11 @@ void Hdf5Writer::integers(const std::string& path, std::span<const std::int64_t>
 void Hdf5Writer::write_dataset(const std::string& path, hid_t memory_type, hid_t file_type, std::string_view values,
                                const std::vector<hsize_t>& extents, const DatasetLabel& label) {
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
-  Hdf5Handle dataset(
-      H5Dcreate2(file_.id(), path.c_str(), file_type, space.id(), H5P_DEFAULT, dataset_properties_.id(), H5P_DEFAULT),
-      H5Dclose);
+  const bool deflates = deflates_ && values.size() >= least_deflated_bytes;
+  const Hdf5Handle chunked = deflates ? deflated(dataset_properties_, extents) : Hdf5Handle();
+  Hdf5Handle dataset(H5Dcreate2(file_.id(), path.c_str(), file_type, space.id(), H5P_DEFAULT,
+                                (deflates ? chunked : dataset_properties_).id(), H5P_DEFAULT),
+                     H5Dclose);
   if (!dataset.valid() || H5Dwrite(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0 ||
       !put_attribute(dataset.id(), "dimension", label.dimension) || !put_attribute(dataset.id(), "unit", label.unit) ||
       !put_attribute(dataset.id(), "scale", H5T_NATIVE_DOUBLE, &label.scale) ||

@@ -76,6 +76,7 @@ class Hdf5Writer {
   void count_attribute(const std::string& object, std::string_view name, ContentKind kind, std::string_view bytes);
 
   std::string name_;
+  bool deflates_;
   Hdf5Handle dataset_properties_, group_properties_;
   Hdf5Handle file_;
   ObjectChecksums unsealed_;  ///< objects written since the last seal

@@ -26,6 +26,8 @@ class Handle {
 };
 
 constexpr int largest_rank = 2;
+/// Most numbers that deflate makes of one.
+constexpr hsize_t most_inflation = 1032;
 
 }  // namespace
 
@@ -59,11 +61,11 @@ Eigen::MatrixXd Hdf5Input::matrix(const std::string& dataset) const {
   if (rank < 1 || rank > largest_rank) refuse(fmt::format("dataset {} has an unknown layout", dataset));
   std::vector<hsize_t> extents(static_cast<std::size_t>(rank));
   H5Sget_simple_extent_dims(space.id(), extents.data(), nullptr);
-  const hsize_t stored = H5Dget_storage_size(handle.id()) / sizeof(double);
+  const hsize_t stored = most_inflation * (H5Dget_storage_size(handle.id()) / sizeof(double));
   const hsize_t components = rank == 1 ? 1 : extents.front();
   // Compared without a product, which could overflow.
   if (components == 0 || extents.back() == 0 || stored / components < extents.back()) {
-    refuse(fmt::format("dataset {} stores {} numbers, less than its size says", dataset, stored));
+    refuse(fmt::format("dataset {} stores at most {} numbers, less than its size says", dataset, stored));
   }
   Eigen::MatrixXd values(static_cast<Eigen::Index>(extents.back()), static_cast<Eigen::Index>(components));
   if (H5Dread(handle.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {

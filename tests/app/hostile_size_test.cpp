@@ -17,7 +17,9 @@ void check_cheaply_refused(const std::vector<std::string>& arguments, const std:
 }
 
 /// A run.h5 whose position claims these extents.
-void write_hollow_run(const std::string& path, const std::vector<hsize_t>& extents, bool allocated) {
+/// @param chunk  extents of its deflated chunks; empty: it is in one piece
+void write_hollow_run(const std::string& path, const std::vector<hsize_t>& extents, bool allocated,
+                      const std::vector<hsize_t>& chunk = {}) {
   {
     vehd::Hdf5Writer file(path, vehd::Hdf5Writer::Mode::create);
     file.attribute("/", "schema_version", vehd::run_schema_version);
@@ -29,6 +31,11 @@ void write_hollow_run(const std::string& path, const std::vector<hsize_t>& exten
   const vehd::Hdf5Handle space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
   const vehd::Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(properties.id(), H5D_FILL_TIME_NEVER);
+  if (!chunk.empty()) {
+    H5Pset_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data());
+    H5Pset_shuffle(properties.id());
+    H5Pset_deflate(properties.id(), 1);
+  }
   if (allocated) H5Pset_alloc_time(properties.id(), H5D_ALLOC_TIME_EARLY);
   const vehd::Hdf5Handle dataset(H5Dcreate2(file.id(), "/snapshots/000000/coefficients/x", H5T_IEEE_F64LE, space.id(),
                                             H5P_DEFAULT, properties.id(), H5P_DEFAULT),
@@ -71,6 +78,10 @@ BOOST_AUTO_TEST_CASE(shape_files_that_claim_too_much) {
   check({3, hsize_t{1} << 36}, false, dataset + "stores 0 numbers, less than its size says");
   // A file with holes can be that large.
   check({3, hsize_t{1} << 36}, true, dataset + "has 206158430208 numbers; accepted: at most 2097152");
+  write_hollow_run(directory / "run.h5", {3, 1 << 26}, false, {3, 1 << 26});
+  check_cheaply_refused(arguments, dataset + "stores 0 numbers, less than its size says");
+  write_hollow_run(directory / "run.h5", {3, hsize_t{1} << 36}, false, {3, 1 << 10});
+  check_cheaply_refused(arguments, dataset + "has an unknown layout");
   check({3, 101 * 101}, true, "run.h5: /snapshots/000000/coefficients/x is of degree 100; accepted: at most 64");
 }
 
