@@ -18,6 +18,7 @@ namespace {
 struct RunOptions {
   SceneChoice scene;
   std::string directory;
+  std::string from;
   bool resume = false;
   bool no_plot = false;
   bool quiet = false;
@@ -78,8 +79,12 @@ void plot_if_possible(const RunPaths& paths) {
 ExitCode run(const RunOptions& options, const Ranks& ranks) {
   // Before anything runs in parallel: threads inherit which signals they leave alone.
   std::optional<Interruption> interruption(std::in_place);
-  const Scene scene = read_scene(options.scene.source);
-  const RunSession session(scene, options.scene.source, directory_of(options), options.resume, ranks);
+  const std::filesystem::path directory = directory_of(options);
+  SceneSource source = options.scene.source;
+  if (options.resume) source = in_scales_of(std::move(source), {directory});
+  if (!options.from.empty()) source = in_scales_of(std::move(source), {options.from});
+  const Scene scene = read_scene(source);
+  const RunSession session(scene, source, directory, options.resume, ranks, false, options.from);
   if (session.is_complete()) {
     if (!ranks.is_first()) return ExitCode::done;
     fmt::print("{}: the run is already complete, nothing to do\n", session.paths().directory.string());
@@ -135,6 +140,10 @@ void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code)
       ->add_option("-o,--output", options->directory,
                    "Directory for the files of the run, created if missing; out/NAME of NAME.toml if not given")
       ->type_name("DIR");
+  command
+      ->add_option("--from", options->from,
+                   "Continue the run in RUN from its last state and time, also with another [flow], field or waveform")
+      ->type_name("RUN");
   command->add_flag("--resume", options->resume,
                     "Continue the run in DIR, also with other [numerics] and [output]; start it if there is none");
   command

@@ -27,6 +27,8 @@ std::int64_t schema_of(std::size_t n_vesicles) { return n_vesicles > 1 ? schema_
 /// Groups of states.
 constexpr const char* state_of_run = "/state";
 constexpr const char* state_of_companion = "/companion";
+constexpr const char* state_of_origin = "/origin";
+constexpr const char* run_of_origin = "/origin_run";
 
 /// Where a state has a vesicle.
 std::string group_of_vesicle(const std::string& state, std::size_t vesicle, std::size_t n_vesicles) {
@@ -203,6 +205,7 @@ class SoundCheck {
                  [&](const char* name, std::int64_t value) { require(value >= 0, name); });
     require(checkpoint.start_order >= lowest_order && checkpoint.start_order <= highest_order, "start_order");
     check(state);
+    if (checkpoint.origin) check(checkpoint.origin->state);
     if (!checkpoint.companion) return;
     const CompanionState& companion = *checkpoint.companion;
     check(companion.state);
@@ -309,6 +312,10 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
   file.text("/changes", json_of(checkpoint.changes).dump());
   file.text("/totals", totals_text(checkpoint.totals));
   write_state(file, state_of_run, checkpoint.state);
+  if (checkpoint.origin) {
+    write_state(file, state_of_origin, checkpoint.origin->state);
+    file.text(run_of_origin, checkpoint.origin->run);
+  }
   if (checkpoint.companion) {
     write_state(file, state_of_companion, checkpoint.companion->state);
     visit_companion(*checkpoint.companion, WriteVisitor{file, state_of_companion});
@@ -326,6 +333,9 @@ Checkpoint checkpoint_of(const std::string& image, const std::string& name) {
   checkpoint.changes = read_changes(file);
   checkpoint.totals = totals_of(file.text("/totals"), file);
   checkpoint.state = read_state(file, state_of_run, n);
+  if (file.has(state_of_origin)) {
+    checkpoint.origin = Origin{file.text(run_of_origin), read_state(file, state_of_origin, n)};
+  }
   if (file.has(state_of_companion)) {
     checkpoint.companion.emplace().state = read_state(file, state_of_companion, n);
     visit_companion(*checkpoint.companion, ReadVisitor{file, state_of_companion});

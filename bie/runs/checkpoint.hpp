@@ -32,10 +32,17 @@ struct CompanionState {
   std::int64_t checksum = 0;     ///< of these bytes
 };
 
+/// Where a run continues another one.
+struct Origin {
+  std::string run{};  ///< directory of the other one
+  State state{};      ///< in the laboratory
+};
+
 /// Everything that a resumed run needs to continue bit for bit, and how far the other files had got.
 struct Checkpoint {
   std::string scene;                 ///< effective scene
   std::vector<SceneChange> changes;  ///< that sessions have made to it, in the order of time
+  std::optional<Origin> origin{};
   /// Empty position: the run starts with the initial state of the scene.
   State state;
   std::int64_t start_order = 0;  ///< degree of the initial shape, in which frame and symmetry were found

@@ -8,6 +8,7 @@
 #include "bie/scene/key_lookup.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/output_units.hpp"
+#include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/schema.hpp"
 #include "bie/sphere/degrees.hpp"
@@ -28,6 +29,36 @@ Scene stored_scene(const Checkpoint& checkpoint, const RunPaths& paths) {
 bool may_change(const std::string& key) { return key.starts_with("numerics.") || key.starts_with("output."); }
 
 std::string shown(const std::string& value) { return value.empty() ? "absent" : value; }
+
+/// What a scene differs in from that of a run which it continues.
+struct Comparison {
+  const Scene& scene;
+  const SceneSource& source;
+  const Scene& stored;
+  const RunPaths& run;
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& why) const {
+    throw InputError(fmt::format("{}: \"{}\" is {}, but the run in {} has {}; {}", key_place(source, key), key,
+                                 shown(key_text(scene, key)), run.directory.string(), shown(key_text(stored, key)),
+                                 why));
+  }
+
+  void require_end_after(double time) const {
+    if (scene.numerics.end_time >= time) return;
+    const OutputUnit unit = OutputUnits(scene).of("time");
+    throw InputError(
+        fmt::format("{}: \"numerics.end_time\" is {}, but the run in {} has already reached {}; accepted: "
+                    "that or later",
+                    key_place(source, "numerics.end_time"), unit.text_of(scene.numerics.end_time),
+                    run.directory.string(), unit.text_of(time)));
+  }
+};
+
+/// Does a key say what acts on the vesicles, and nothing of them?
+bool is_of_driving(const std::string& key) {
+  return key.starts_with("flow.") || key.starts_with("electric.waveform.") || key == "electric.field" ||
+         key == "electric.field_magnitude";
+}
 
 /// Degree in which a vesicle goes on.
 int order_of_state(const Scene& scene, const VesicleState& vesicle) {
@@ -54,11 +85,8 @@ State adapted(State state, const Scene& before, const Scene& scene) {
 void require_same_physics(const Scene& scene, const SceneSource& source, const Checkpoint& checkpoint,
                           const RunPaths& paths) {
   const Scene stored = stored_scene(checkpoint, paths);
-  const auto refuse = [&](const std::string& key, const std::string& why) {
-    throw InputError(fmt::format("{}: \"{}\" is {}, but the run in {} has {}; {}", key_place(source, key), key,
-                                 shown(key_text(scene, key)), paths.directory.string(), shown(key_text(stored, key)),
-                                 why));
-  };
+  const Comparison comparison{scene, source, stored, paths};
+  const auto refuse = [&](const std::string& key, const std::string& why) { comparison.refuse(key, why); };
   for (const std::string& key : differing_keys(stored, scene)) {
     if (!may_change(key)) {
       refuse(key, "--resume accepts changes of [numerics] and [output] alone: keep the value or choose another -o");
@@ -72,20 +100,62 @@ void require_same_physics(const Scene& scene, const SceneSource& source, const C
       refuse(key, "a state that was computed without symmetry need not have any: keep \"off\" or choose another -o");
     }
   }
-  if (scene.numerics.end_time < checkpoint.state.time) {
-    const OutputUnit time = OutputUnits(scene).of("time");
-    throw InputError(
-        fmt::format("{}: \"numerics.end_time\" is {}, but the run in {} has already reached {}; accepted: "
-                    "that or later",
-                    key_place(source, "numerics.end_time"), time.text_of(scene.numerics.end_time),
-                    paths.directory.string(), time.text_of(checkpoint.state.time)));
+  comparison.require_end_after(checkpoint.state.time);
+}
+
+Checkpoint continued_from(const RunPaths& run, const Scene& scene, const SceneSource& source) {
+  const std::string directory = run.directory.string();
+  if (!std::filesystem::exists(run.checkpoint())) {
+    throw InputError(fmt::format("{}: holds no run that can be continued: it has no checkpoint.h5", directory));
   }
+  const Checkpoint before = read_checkpoint(run.checkpoint());
+  if (before.state.step == 0) throw InputError(fmt::format("{}: the run has taken no step yet", directory));
+  const Scene stored = stored_scene(before, run);
+  const Comparison comparison{scene, source, stored, run};
+  for (const std::string& key : differing_keys(stored, scene)) {
+    if (!may_change(key) && !is_of_driving(key)) {
+      comparison.refuse(key,
+                        "--from accepts changes of [flow], of field and waveform in [electric], of [numerics] and of "
+                        "[output]: keep the value, or start from the shape with kind = \"file\"");
+    }
+  }
+  if (has_averaged_field(stored) != has_averaged_field(scene)) {
+    comparison.refuse("electric.waveform.average", "V_m of a field that is averaged is no state: keep the value");
+  }
+  if (scene.numerics.error_bars) {
+    throw InputError(
+        fmt::format("{}: \"numerics.error_bars\" is true; accepted with --from: false, as error_bars "
+                    "compare two runs from the start",
+                    key_place(source, "numerics.error_bars")));
+  }
+  comparison.require_end_after(before.state.time);
+  const auto frame_under = [&](const Scene& of, const std::optional<Origin>& origin) {
+    return problem_of(of, static_cast<int>(before.start_order), origin ? &origin->state : nullptr).frame;
+  };
+  State state = without_past(before.state);
+  for (VesicleState& vesicle : state.vesicles) vesicle.recycled = {};
+  Checkpoint start;
+  start.start_order = before.start_order;
+  start.changes = changes_between(stored, scene, state.time, state.step);
+  start.origin = Origin{std::filesystem::absolute(run.directory).lexically_normal().string(),
+                        in_laboratory(frame_under(stored, before.origin), std::move(state))};
+  start.state = adapted(in_frame(frame_under(scene, start.origin), start.origin->state), stored, scene);
+  return start;
+}
+
+SceneSource in_scales_of(SceneSource source, const RunPaths& run) {
+  if (!std::filesystem::exists(run.checkpoint()) || !is_given(source, "units")) return source;
+  const Scene stored = stored_scene(read_checkpoint(run.checkpoint()), run);
+  for (const char* key : {"units.length", "units.time", "units.viscosity", "units.potential"}) {
+    const std::string scale = key_text(stored, key);
+    if (!scale.empty() && !is_given(source, key)) source.settings.push_back(fmt::format("{}={}", key, scale));
+  }
+  return source;
 }
 
 Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& paths) {
   const Scene before = stored_scene(checkpoint, paths);
-  const std::vector<SceneChange> changes =
-      numerical_changes(before, scene, checkpoint.state.time, checkpoint.state.step);
+  const std::vector<SceneChange> changes = changes_between(before, scene, checkpoint.state.time, checkpoint.state.step);
   // Without a row the start has not been evaluated, which may raise the degrees that it begins with.
   if (changes.empty() && checkpoint.n_rows > 0) return checkpoint;
   checkpoint.changes.insert(checkpoint.changes.end(), changes.begin(), changes.end());

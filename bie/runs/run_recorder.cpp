@@ -1,5 +1,7 @@
 #include "bie/runs/run_recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -20,6 +22,14 @@ bool is_late(const std::optional<std::chrono::steady_clock::time_point>& written
 
 bool has_several(const Checkpoint& checkpoint) { return checkpoint.state.vesicles.size() > 1; }
 
+/// With its past as comments at the top.
+std::string scene_text(const Checkpoint& start) {
+  const std::string scene = with_changes(start.scene, start.changes);
+  if (!start.origin) return scene;
+  const State& state = start.origin->state;
+  return fmt::format("# from {} at time {:g} (step {})\n{}", start.origin->run, state.time, state.step, scene);
+}
+
 /// Files that go on are intact, see require_intact. The checkpoint comes first: whatever a kill leaves behind can be
 /// resumed.
 Checkpoint written(const RunPaths& paths, Checkpoint start, HistoryKind kind) {
@@ -31,7 +41,7 @@ Checkpoint written(const RunPaths& paths, Checkpoint start, HistoryKind kind) {
   if (start.vesicles_bytes > 0) require_columns(paths.vesicles(), of_each_like(kind));
   if (start.companion && start.companion->bytes > 0) require_columns(paths.history_error(), kind);
   write_checkpoint(paths.checkpoint(), start);
-  replace_file(paths.scene(), with_changes(start.scene, start.changes));
+  replace_file(paths.scene(), scene_text(start));
   return start;
 }
 
@@ -50,8 +60,9 @@ SnapshotStore::Kept kept_snapshots(const RunPaths& paths, const SphereTransform&
 
 SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Checkpoint& start,
                                          const SiUnits& si_units) {
-  return [&output, header = RunHeader{with_changes(start.scene, start.changes), static_cast<int>(start.threads),
-                                      si_units}](Hdf5Writer& file) { write_run_header(file, output, header); };
+  return [&output, header = RunHeader{scene_text(start), static_cast<int>(start.threads), si_units}](Hdf5Writer& file) {
+    write_run_header(file, output, header);
+  };
 }
 
 /// Lists the fields of the snapshots. @param has  whether they have a dataset

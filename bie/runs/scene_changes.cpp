@@ -18,10 +18,10 @@ std::string shown(const nlohmann::json& value) { return value.is_null() ? "absen
 
 }  // namespace
 
-std::vector<SceneChange> numerical_changes(const Scene& before, const Scene& after, double time, std::int64_t step) {
+std::vector<SceneChange> changes_between(const Scene& before, const Scene& after, double time, std::int64_t step) {
   std::vector<SceneChange> changes;
   for (const std::string& key : differing_keys(before, after)) {
-    if (!key.starts_with("numerics.") || key == "numerics.end_time") continue;
+    if (key.starts_with("output.") || key == "numerics.end_time") continue;
     changes.push_back({time, step, key, value_of(before, key), value_of(after, key)});
   }
   return changes;

@@ -9,7 +9,7 @@
 
 namespace vehd {
 
-/// One key of [numerics] that a session of a run has found changed in the scene, and where the run stood then.
+/// One key that a session of a run has found changed in the scene, and where the run stood then.
 struct SceneChange {
   double time = 0.0;
   std::int64_t step = 0;         ///< accepted steps until then
@@ -19,8 +19,8 @@ struct SceneChange {
   bool operator==(const SceneChange&) const = default;
 };
 
-/// Changes between the scenes of two sessions in how steps are computed. Where and how often a run ends is none.
-std::vector<SceneChange> numerical_changes(const Scene& before, const Scene& after, double time, std::int64_t step);
+/// Changes between the scenes of two sessions in what is computed. Where a run ends and what it shows is none.
+std::vector<SceneChange> changes_between(const Scene& before, const Scene& after, double time, std::int64_t step);
 
 /// An array of objects {time, step, key, from, to}.
 nlohmann::json json_of(const std::vector<SceneChange>& changes);

@@ -27,20 +27,23 @@ bool has_ended(const Scene& scene, const Checkpoint& checkpoint, const RunPaths&
 }
 
 /// That of the start, which all states of the run are kept to.
-std::string imposed_symmetry(const Scene& scene) {
-  const Problem problem = problem_of(scene);
+std::string imposed_symmetry(const Scene& scene, const std::optional<Origin>& origin) {
+  const Problem problem = problem_of(scene, scene.numerics.order, origin ? &origin->state : nullptr);
   return symmetry_text(problem.symmetry, problem.frame);
 }
 
 }  // namespace
 
 RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume,
-                       Ranks ranks, bool is_claimed)
+                       Ranks ranks, bool is_claimed, const std::filesystem::path& from)
     : scene_(std::move(scene)), paths_{directory}, ranks_(std::move(ranks)) {
   ranks_.together([&] {
     if (ranks_.is_first() && !is_claimed) lock_ = lock_in(paths_);
   });
-  if (!admit_run(paths_, resume)) return;
+  if (!admit_run(paths_, resume)) {
+    if (!from.empty()) checkpoint_ = continued_from({from}, scene_, source);
+    return;
+  }
   checkpoint_ = read_checkpoint(paths_.checkpoint());
   require_same_physics(scene_, source, *checkpoint_, paths_);
   require_intact(paths_, *checkpoint_);
@@ -63,8 +66,9 @@ RunOutcome RunSession::simulate(Interruption& interruption, TellStatus tell,
 
 nlohmann::json RunSession::summarise(const RunOutcome& outcome) const {
   const HistoryTable history(paths_.history());
-  nlohmann::json summary = summary_of(history, scene_, read_checkpoint(paths_.checkpoint()), outcome);
-  summary["symmetry"] = imposed_symmetry(scene_);
+  const Checkpoint checkpoint = read_checkpoint(paths_.checkpoint());
+  nlohmann::json summary = summary_of(history, scene_, checkpoint, outcome);
+  summary["symmetry"] = imposed_symmetry(scene_, checkpoint.origin);
   if (scene_.numerics.error_bars) {
     summary["error_bars"] = worst_error(history, HistoryTable(paths_.history_error()));
   }

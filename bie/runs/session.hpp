@@ -26,10 +26,11 @@ class RunSession {
   /// @param resume  whether a former run may go on
   /// @param ranks   that run it together: all calls are collective, and only the first rank writes
   /// @param is_claimed  the caller keeps other sessions out of the directory
+  /// @param from     directory of the run that a new one continues; empty: none
   /// @throws InputError if another session is at it, or if what the directory holds cannot go on with this scene
   /// @throws OutputError if the directory cannot be used
   RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume,
-             Ranks ranks = {}, bool is_claimed = false);
+             Ranks ranks = {}, bool is_claimed = false, const std::filesystem::path& from = {});
 
   [[nodiscard]] const RunPaths& paths() const { return paths_; }
   /// A former session has reached the end of the scene: nothing is left to do.

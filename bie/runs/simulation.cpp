@@ -55,7 +55,7 @@ Simulation::Simulation(const Scene& scene, Checkpoint from, OutputUnits units, R
       from_(std::move(from)),
       units_(std::move(units)),
       time_unit_(units_.of("time")),
-      problem_(problem_of(scene, start_order())),
+      problem_(problem_of(scene, start_order(), from_.origin ? &from_.origin->state : nullptr)),
       ranks_(std::move(ranks)),
       events_(events_of(scene)),
       evolution_(evolution_of_scene()),

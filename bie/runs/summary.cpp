@@ -75,6 +75,11 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
   if (!outcome.completed) json["reason"] = outcome.reason;
   json["warnings"] = json_of(model_warnings(scene, largest_values(history, scene)));
   json["changes"] = changes_in(history.units(scene.units).of("time"), checkpoint.changes);
+  if (checkpoint.origin) {
+    const State& state = checkpoint.origin->state;
+    const double time = state.time * history.units(scene.units).of("time").factor;
+    json["from"] = {{"run", checkpoint.origin->run}, {"time", time}, {"step", state.step}};
+  }
   json["time"] = last(history.column("time"));
   json["units"] = {{"time", history.unit("time").empty() ? "1" : history.unit("time")}};
   json["steps"] = steps;

@@ -25,6 +25,17 @@ std::optional<std::pair<std::size_t, std::string>> parts_of_name(const std::stri
   return std::pair{static_cast<std::size_t>(std::stoul(name.substr(start.size()))), name.substr(end + 2)};
 }
 
+toml::table table_of(const SceneSource& source) {
+  const std::string file = source.file.string();
+  try {
+    toml::table table = source.text ? toml::parse(*source.text, file) : toml::parse_file(file);
+    apply_settings(table, source.settings);
+    return table;
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}:{}: {}", file, error.source().begin.line, error.description()));
+  }
+}
+
 }  // namespace
 
 std::string key_text(const Scene& scene, const std::string& name) {
@@ -59,30 +70,30 @@ std::vector<const KeyDescription*> keys_named(const std::string& name, const std
                                shortened(name), where, nearest_name(name, {all.begin(), all.end()})));
 }
 
+bool is_given(const SceneSource& source, const std::string& name) {
+  const toml::table table = table_of(source);
+  return static_cast<bool>(table.at_path(name));
+}
+
 std::string key_place(const SceneSource& source, const std::string& name) {
   const std::string file = source.file.string();
-  try {
-    toml::table table = source.text ? toml::parse(*source.text, file) : toml::parse_file(file);
-    apply_settings(table, source.settings);
-    const auto vesicle = parts_of_name(name);
-    const std::string plain = vesicle ? vesicle->second : name;
-    const std::size_t last = plain.rfind('.');
-    const KeyDescription* key = find_key(plain.substr(0, last), plain.substr(last + 1));
-    if (key != nullptr && !key->other_name.empty()) {
-      const auto node = table.at_path(fmt::format("{}.{}", key->table, key->other_name));
-      if (node) return place(*node.node(), file);
-    }
-    // Its own value of a vesicle, that of all, its own table, in this order.
-    if (vesicle && !table.at_path(name)) {
-      if (const auto node = table.at_path(plain)) return place(*node.node(), file);
-    }
-    for (std::string path = name; !path.empty();) {
-      if (const auto node = table.at_path(path)) return place(*node.node(), file);
-      const std::size_t dot = path.rfind('.');
-      path.resize(dot == std::string::npos ? 0 : dot);
-    }
-  } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}: {}", file, error.description()));
+  const toml::table table = table_of(source);
+  const auto vesicle = parts_of_name(name);
+  const std::string plain = vesicle ? vesicle->second : name;
+  const std::size_t last = plain.rfind('.');
+  const KeyDescription* key = find_key(plain.substr(0, last), plain.substr(last + 1));
+  if (key != nullptr && !key->other_name.empty()) {
+    const auto node = table.at_path(fmt::format("{}.{}", key->table, key->other_name));
+    if (node) return place(*node.node(), file);
+  }
+  // Its own value of a vesicle, that of all, its own table, in this order.
+  if (vesicle && !table.at_path(name)) {
+    if (const auto node = table.at_path(plain)) return place(*node.node(), file);
+  }
+  for (std::string path = name; !path.empty();) {
+    if (const auto node = table.at_path(path)) return place(*node.node(), file);
+    const std::size_t dot = path.rfind('.');
+    path.resize(dot == std::string::npos ? 0 : dot);
   }
   return file + ":1";
 }

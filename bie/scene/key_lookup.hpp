@@ -20,6 +20,9 @@ std::string key_text(const Scene& scene, const std::string& name);
 std::vector<const KeyDescription*> keys_named(const std::string& name, const std::string& place,
                                               std::string_view where);
 
+/// Whether a scene file has a key or table. @throws InputError if the file cannot be read
+bool is_given(const SceneSource& source, const std::string& name);
+
 /// "file:line" of a key in a scene file that can be read: of its table where the key is left out, of the first line
 /// where the table is; the option --set that gives the key. @throws InputError if the file cannot be read any more
 std::string key_place(const SceneSource& source, const std::string& name);

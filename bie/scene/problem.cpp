@@ -22,17 +22,9 @@ EventTimes events_of(const Scene& scene) {
   return events;
 }
 
-Problem problem_of(const Scene& scene) { return problem_of(scene, model_of(scene)); }
+namespace {
 
-Problem problem_of(const Scene& scene, int start_order) {
-  Scene start = scene;
-  start.numerics.order = start_order;
-  Problem problem = problem_of(start);
-  problem.settings.order = scene.numerics.order;
-  return problem;
-}
-
-Problem problem_of(const Scene& scene, const Model& without_areas) {
+Problem problem_from(const Scene& scene, const Model& without_areas, const State* origin) {
   Model model = without_areas;
   State start;
   for (const Scene& one : each_alone(scene)) {
@@ -45,6 +37,7 @@ Problem problem_of(const Scene& scene, const Model& without_areas) {
     std::optional<Undulations>& undulations = model.vesicles[start.vesicles.size() - 1].undulations;
     if (undulations) undulations = with_rest_area(*undulations, size_of(vesicle.position).area);
   }
+  if (origin != nullptr) start = *origin;
   Problem problem;
   problem.names = vesicle_names(scene);
   problem.frame = find_frame(model, start);
@@ -62,6 +55,22 @@ Problem problem_of(const Scene& scene, const Model& without_areas) {
                              {steady, std::move(found_at.transmembrane_potential)},
                              std::move(found_at.material)});
   }
+  return problem;
+}
+
+}  // namespace
+
+Problem problem_of(const Scene& scene) { return problem_of(scene, model_of(scene)); }
+
+Problem problem_of(const Scene& scene, const Model& without_areas) {
+  return problem_from(scene, without_areas, nullptr);
+}
+
+Problem problem_of(const Scene& scene, int start_order, const State* origin) {
+  Scene start = scene;
+  start.numerics.order = start_order;
+  Problem problem = problem_from(start, model_of(start), origin);
+  problem.settings.order = scene.numerics.order;
   return problem;
 }
 

@@ -29,7 +29,8 @@ Problem problem_of(const Scene& scene);
 
 /// Of a scene that continues a run which began with the initial shape in another degree: its frame and symmetry were
 /// found there, and its state is in them.
-Problem problem_of(const Scene& scene, int start_order);
+/// @param origin  state, in the laboratory, from which it continues another run: they were found in it
+Problem problem_of(const Scene& scene, int start_order, const State* origin = nullptr);
 
 /// The problem with another model, in laboratory coordinates, on the scene's shape.
 Problem problem_of(const Scene& scene, const Model& model);

@@ -1,0 +1,153 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "bie/runs/history.hpp"
+#include "bie/runs/resumption.hpp"
+#include "bie/runs/session.hpp"
+#include "bie/scene/reader.hpp"
+#include "bie/support/errors.hpp"
+#include "bie/support/interruption.hpp"
+#include "tests/support/files.hpp"
+
+// Runs that continue others under another field, flow or waveform.
+BOOST_AUTO_TEST_SUITE(continued_from)
+
+namespace {
+
+const std::string field_along_x = "field = [0.5, 0.0, 0.0]\n", no_field = "field = [0.0, 0.0, 0.0]\n";
+const std::string shear = "[flow]\nkind = \"shear\"\nrate = 0.5\n";
+
+/// An ellipsoid that charges; in a field along x its poles do not lie on the axis of symmetry.
+std::string scene_text(const std::string& field, double end, const std::string& more = {}) {
+  return "[shape]\nkind = \"ellipsoid\"\naxes = [1.3, 1.0, 1.0]\n[membrane]\nbending_modulus = 0.5\n"
+         "[electric]\nconductivity_in = 0.5\nconductivity_out = 1.0\n" +
+         field + "[numerics]\ndegree = 8\ndt = 0.0625\ntime_order = 1\nend_time = " + std::to_string(end) + "\n" + more;
+}
+
+struct Runs {
+  TemporaryDirectory directory;
+
+  [[nodiscard]] vehd::SceneSource source(const std::string& text) const {
+    write_text(directory / "scene.toml", text);
+    return {directory / "scene.toml", {}};
+  }
+  /// @param from  of the run that it continues; empty: none
+  nlohmann::json run(const std::string& name, const std::string& text, const std::string& from = {},
+                     bool resume = false) const {
+    const vehd::SceneSource given = source(text);
+    const vehd::RunSession session(vehd::read_scene(given), given, directory / name, resume, {}, false,
+                                   from.empty() ? std::filesystem::path() : std::filesystem::path(directory / from));
+    vehd::Interruption interruption;
+    return session.summarise(session.simulate(interruption, {}));
+  }
+  [[nodiscard]] std::string history(const std::string& name) const { return directory / (name + "/history.csv"); }
+  [[nodiscard]] std::string refusal(const std::string& text, const std::string& from = "first") const {
+    try {
+      run("refused", text, from);
+    } catch (const vehd::InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+};
+
+void check_same_end(const vehd::HistoryTable& a, const vehd::HistoryTable& b) {
+  for (const char* column : {"time", "extent_x", "extent_y", "extent_z", "inclination_deg", "Vm_max",
+                             "tension_integral", "bending_energy_scaled"}) {
+    const double x = a.column(column).back(), y = b.column(column).back();
+    BOOST_TEST(std::abs(x - y) <= 1e-8 * (1.0 + std::abs(x)), column << ": " << x << " and " << y);
+  }
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_CASE(an_unchanged_scene_goes_on_as_if_never_interrupted, Runs) {
+  run("whole", scene_text(field_along_x, 0.5));
+  run("first", scene_text(field_along_x, 0.25));
+  run("second", scene_text(field_along_x, 0.5), "first");
+  const vehd::HistoryTable second(history("second"));
+  BOOST_TEST(second.column("time").front() == 0.25, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(second.n_rows() == 5U);
+  check_same_end(vehd::HistoryTable(history("whole")), second);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_field_that_is_switched_off_is_a_pulse, Runs) {
+  run("pulse", scene_text(field_along_x + "[electric.waveform]\nkind = \"pulse\"\nduration = 0.25\n", 0.5));
+  run("first", scene_text(field_along_x, 0.25));
+  const nlohmann::json summary = run("second", scene_text(no_field, 0.5), "first");
+  const vehd::HistoryTable pulse(history("pulse")), second(history("second"));
+  check_same_end(pulse, second);
+  // The first row is the one behind the jump.
+  constexpr std::size_t jump = 5;
+  const std::vector<double>& tension = pulse.column("tension_integral");
+  BOOST_TEST(pulse.column("time")[jump] == second.column("time").front(), boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(tension[jump] == second.column("tension_integral").front(), boost::test_tools::tolerance(1e-8));
+  BOOST_TEST(std::abs(tension[jump] - tension[jump - 1]) > 1e-3);
+  BOOST_TEST(summary.at("from").at("run") == directory / "first");
+  BOOST_TEST(summary.at("from").at("step") == 4);
+  BOOST_TEST(summary.at("from").at("time").get<double>() == 0.25, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(summary.at("changes").at(0).at("key") == "electric.field");
+  BOOST_TEST(file_text(directory / "second/scene.toml").starts_with("# from " + directory / "first" + " at time 0.25"));
+}
+
+// The axis of the first run is no symmetry of the second.
+BOOST_FIXTURE_TEST_CASE(symmetry_is_that_of_the_state_under_the_new_flow, Runs) {
+  const std::string off = "symmetry = \"off\"\n";
+  BOOST_TEST(run("first", scene_text(field_along_x, 0.125)).at("symmetry") != "none");
+  BOOST_TEST(run("second", scene_text(field_along_x, 0.375, shear), "first").at("symmetry") != "none");
+  run("first_off", scene_text(field_along_x, 0.125, off));
+  run("second_off", scene_text(field_along_x, 0.375, off + shear), "first_off");
+  check_same_end(vehd::HistoryTable(history("second")), vehd::HistoryTable(history("second_off")));
+  BOOST_TEST(std::abs(vehd::HistoryTable(history("second")).column("inclination_deg").back()) > 0.1);
+}
+
+BOOST_FIXTURE_TEST_CASE(continued_runs_resume_bit_for_bit, Runs) {
+  run("first", scene_text(field_along_x, 0.25));
+  run("whole", scene_text(no_field, 0.5, shear), "first");
+  run("parts", scene_text(no_field, 0.375, shear), "first");
+  run("parts", scene_text(no_field, 0.5, shear), "", true);
+  BOOST_TEST(file_text(history("parts")) == file_text(history("whole")));
+  // A third run continues the second one.
+  run("third", scene_text(field_along_x, 0.75), "whole");
+  BOOST_TEST(vehd::HistoryTable(history("third")).column("time").front() == 0.5, boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_FIXTURE_TEST_CASE(what_the_state_depends_on_may_not_change, Runs) {
+  const std::string text = scene_text(field_along_x, 0.25);
+  run("first", text);
+  const auto has = [](const std::string& message, const std::string& part) {
+    BOOST_TEST(message.find(part) != std::string::npos, message);
+  };
+  std::string stiffer = scene_text(field_along_x, 0.5);
+  stiffer.replace(stiffer.find("= 0.5"), 5, "= 0.6");
+  has(refusal(stiffer), "scene.toml:5: \"membrane.bending_modulus\" is 0.6, but the run in " + directory / "first" +
+                            " has 0.5; --from accepts changes of [flow], of field and waveform in [electric]");
+  has(refusal(scene_text(field_along_x, 0.125)), "\"numerics.end_time\" is 0.125, but the run in ");
+  has(refusal(scene_text(field_along_x, 0.5, "error_bars = true\n")), "\"numerics.error_bars\" is true");
+  has(refusal(scene_text(field_along_x + "[electric.waveform]\nkind = \"ac\"\nfrequency = 9.0\naverage = true\n", 0.5)),
+      "\"electric.waveform.average\" is true, but the run in ");
+  has(refusal(text, "nothing"), "nothing: holds no run that can be continued: it has no checkpoint.h5");
+}
+
+// Reference times follow from a pulse.
+BOOST_FIXTURE_TEST_CASE(reference_scales_are_those_of_the_first_run, Runs) {
+  const auto text = [](const std::string& duration) {
+    return "[units]\n[shape]\nkind = \"prolate\"\nreduced_volume = 0.95\narea = \"1257 um^2\"\n"
+           "[membrane]\nbending_modulus = \"1e-19 J\"\ncapacitance = \"10 mF/m^2\"\n[fluid]\nviscosity = \"1 mPa s\"\n"
+           "[electric]\nfield = [0, 0, \"0.3 kV/cm\"]\nconductivity_in = \"0.5 mS/cm\"\nconductivity_out = \"1 "
+           "mS/cm\"\n"
+           "permittivity = \"80 eps0\"\n[electric.waveform]\nkind = \"pulse\"\nduration = \"" +
+           duration + "\"\n[numerics]\ndegree = 8\ndt = \"10 us\"\nend_time = \"40 us\"\n";
+  };
+  run("first", text("20 us"));
+  const vehd::SceneSource longer = source(text("300 ns"));
+  const vehd::SceneSource stored{directory / "first/scene.toml", {}};
+  const auto time = [](const vehd::SceneSource& of) { return vehd::read_scene(of).units->time.value(); };
+  BOOST_TEST(time(longer) != time(stored));
+  BOOST_TEST(time(vehd::in_scales_of(longer, vehd::RunPaths{directory / "first"})) == time(stored));
+  BOOST_TEST(vehd::in_scales_of(longer, vehd::RunPaths{directory / "nothing"}).settings.empty());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
