@@ -1,7 +1,5 @@
 #include "bie/physics/membrane_flow.hpp"
 
-#include <algorithm>
-
 #include "bie/linear/recycled_gcr.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/parallel.hpp"
@@ -10,10 +8,8 @@ namespace vehd {
 
 namespace {
 
-/// The velocities of a solve inside another one are exact next to its tolerance. They are parts of the largest ones,
-/// whose error is theirs as well; alone they have three digits at least.
+/// The velocities of a solve inside another one are exact next to its tolerance.
 constexpr SolveOptions kWithinSolve{1e-12, 100};
-constexpr double kFewestDigits = 1e-3;
 
 }  // namespace
 
@@ -63,12 +59,7 @@ std::vector<Matrix> MembraneFlow::velocities(const std::vector<Matrix>& weighted
   });
   if (!contrast_) return result;
   interaction_.gather_vectors(result);
-  const Vector driven = stacked_.stack(result);
-  const double size = driven.norm();
-  largest_ = std::max(largest_, size);
-  SolveOptions options = kWithinSolve;
-  if (size > 0.0) options.tolerance = std::min(kFewestDigits, options.tolerance * (largest_ / size));
-  const RecycledGcr::Solution solution = solver_->solve(driven, {}, options);
+  const RecycledGcr::Solution solution = solver_->solve(stacked_.stack(result), {}, kWithinSolve);
   require_converged(solution.report, "velocities of membranes with a viscosity contrast");
   return stacked_.fields<Matrix>(solution.x);
 }

@@ -56,7 +56,6 @@ class MembraneFlow {
   bool contrast_;
   StackedEntries stacked_;
   std::unique_ptr<RecycledGcr> solver_;  // where there is a contrast
-  double largest_ = 0.0;                 // norm of the velocities that it has found
 };
 
 }  // namespace vehd
