@@ -1,5 +1,3 @@
-#include "bie/comparison/check_fields.hpp"
-
 #include <boost/test/unit_test.hpp>
 
 #include "bie/comparison/check.hpp"
