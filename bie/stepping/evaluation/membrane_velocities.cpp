@@ -45,7 +45,7 @@ void add_contact(const ContactParameters& contact, const std::vector<VesicleTask
   }
 }
 
-/// What the symmetry leaves of a velocity; the interaction knows nothing of it.
+/// What the symmetry leaves of a velocity.
 Matrix symmetric(const Membrane& membrane, const Matrix& velocity) {
   return membrane.subspace.symmetry().any() ? membrane.subspace.symmetric_vector(velocity) : velocity;
 }
