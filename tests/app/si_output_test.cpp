@@ -223,8 +223,8 @@ BOOST_FIXTURE_TEST_CASE(physics_outside_the_model_is_said_apart_from_the_verdict
   BOOST_TEST(warning["name"] == "poration");
   BOOST_TEST(warning["limit"] == 1.0);
   const vehd::HistoryTable history(output + "/history.csv");
-  BOOST_TEST(history.unit("Vm_max") == "V");
-  BOOST_TEST(warning["value"].get<double>() == history.largest_magnitude("Vm_max"),
+  BOOST_TEST(history.unit("Vm_max") == "mV");
+  BOOST_TEST(1e3 * warning["value"].get<double>() == history.largest_magnitude("Vm_max"),
              boost::test_tools::tolerance(1e-12));
   const auto text = warning["text"].get<std::string>();
   BOOST_TEST(has(printed, "outside the model (poration): " + text + "\n"));
