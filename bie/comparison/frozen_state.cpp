@@ -115,7 +115,7 @@ void require_same_vesicles(const RunReader& run, const Scene& scene) {
 }
 
 /// A scene, or a snapshot of a run with its scene.
-struct Origin {
+struct FrozenSource {
   std::filesystem::path file;
   std::optional<RunReader> run{};  ///< absent, as is the snapshot: the start of the scene
   std::size_t number = 0;          ///< of the snapshot
@@ -124,7 +124,7 @@ struct Origin {
   Scene scene{};
 
   /// @param who  command that accepts one or two vesicles
-  Origin(const SceneSource& source, const std::optional<std::string>& time, const std::string& who)
+  FrozenSource(const SceneSource& source, const std::optional<std::string>& time, const std::string& who)
       : file(source.file) {
     if (is_scene(file)) {
       require_start(file, time);
@@ -140,8 +140,8 @@ struct Origin {
     }
     require_known_wall(scene, file);
   }
-  Origin(const Origin&) = delete;
-  Origin& operator=(const Origin&) = delete;
+  FrozenSource(const FrozenSource&) = delete;
+  FrozenSource& operator=(const FrozenSource&) = delete;
 
   /// @throws InputError if the shape of a vesicle is none
   void require_outward_shape(std::size_t vesicle, const Matrix& position) const {
@@ -156,7 +156,7 @@ struct Origin {
   }
 };
 
-void start_scene(const Origin& origin, FrozenState& frozen) {
+void start_scene(const FrozenSource& origin, FrozenState& frozen) {
   const Problem problem = problem_of(origin.scene);
   for (std::size_t a = 0; a < problem.start.size(); ++a) {
     frozen.model.vesicles[a].undulations = problem.model.vesicles[a].undulations;
@@ -172,8 +172,8 @@ void start_scene(const Origin& origin, FrozenState& frozen) {
 /// One vesicle of a snapshot: every field that a run of this scene writes, so that none can be missing unnoticed.
 class VesicleOfSnapshot {
  public:
-  VesicleOfSnapshot(const Origin& origin, std::size_t vesicle)
-      : origin_(origin), snapshot_(*origin.snapshot), vesicle_(vesicle) {}
+  VesicleOfSnapshot(const FrozenSource& origin, std::size_t vesicle)
+      : source_(origin), snapshot_(*origin.snapshot), vesicle_(vesicle) {}
 
   void read(const MembraneScene& scene, FrozenState& frozen) const {
     const Model& model = frozen.model;
@@ -182,7 +182,7 @@ class VesicleOfSnapshot {
     VesicleFields& fields = frozen.fields.vesicles.emplace_back();
     const bool electric = model.electric.has_value(), tense = model.mobile && of_model.inextensible;
     state.position = coefficients("x", 3);
-    origin_.require_outward_shape(vesicle_, state.position);
+    source_.require_outward_shape(vesicle_, state.position);
     state.area_strain = Vector::Zero(state.position.rows());
     if (of_model.inextensible) state.tension = Vector::Zero(state.position.rows());
     fields.velocity = coefficients("velocity", 3, model.mobile);
@@ -237,12 +237,12 @@ class VesicleOfSnapshot {
     return is_written ? snapshot_.coefficients(name, components, vesicle_) : Matrix();
   }
 
-  const Origin& origin_;
+  const FrozenSource& source_;
   const RunSnapshot& snapshot_;
   std::size_t vesicle_;
 };
 
-void take_snapshot(const Origin& origin, FrozenState& frozen) {
+void take_snapshot(const FrozenSource& origin, FrozenState& frozen) {
   frozen.state.time = origin.snapshot->time();
   const std::vector<Scene> alone = each_alone(origin.scene);
   for (std::size_t a = 0; a < alone.size(); ++a) VesicleOfSnapshot(origin, a).read(alone[a].membrane, frozen);
@@ -258,7 +258,7 @@ FrozenState read_frozen_state(const SceneSource& source, const std::optional<std
                     "scene (.toml)",
                     source.settings.front(), source.file.string()));
   }
-  const Origin origin(source, time, "vehd check");
+  const FrozenSource origin(source, time, "vehd check");
   const Scene& scene = origin.scene;
   require_known_effects(scene, origin.file);
   FrozenState frozen;
@@ -274,7 +274,7 @@ FrozenState read_frozen_state(const SceneSource& source, const std::optional<std
 }
 
 FrozenShape read_frozen_shape(const std::filesystem::path& file, const std::optional<std::string>& time) {
-  const Origin origin({file, {}}, time, "vehd mesh");
+  const FrozenSource origin({file, {}}, time, "vehd mesh");
   FrozenShape shape;
   shape.source = file.string();
   shape.wall = model_of(origin.scene).wall;
