@@ -165,8 +165,9 @@ bool has_hollow(const RunPaths& paths) {
   constexpr int grid_degree = 24;
   constexpr double least_share = 0.01;
   const RunReader run(paths.snapshots());
-  const auto read = read_shape(run.snapshot(run.times().size() - 1), ShapeField::curvature);
-  const Shape shape = shape_of(read, ShapeField::curvature, grid_degree);
+  const ShapeField& curvature = shape_field("curvature");
+  const auto read = read_shape(run.snapshot(run.times().size() - 1), curvature);
+  const Shape shape = shape_of(read, curvature, grid_degree);
   return shape.weights.dot((shape.values.array() > 0.0).cast<double>().matrix()) > least_share * shape.weights.sum();
 }
 

@@ -30,7 +30,7 @@ struct ShapeField {
 };
 
 /// All of them. A new one is a row here.
-constexpr std::array shape_fields = {
+inline constexpr std::array shape_fields = {
     ShapeField{"none", ShapeField::Values::none},
     ShapeField{"V_m", ShapeField::Values::dataset, "V_m", "potential", {"Vm"}, true},
     ShapeField{"q", ShapeField::Values::dataset, "q", "potential/length", {"q"}, true},

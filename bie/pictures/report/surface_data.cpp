@@ -111,7 +111,7 @@ nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>
       fields[i].add(snapshot.coefficients(dataset, 1) * field_units[i].factor, transform, surface.quadrature);
     }
   }
-  if (wall) json["wall"]["normal"] = rounded_list({wall->normal.begin(), wall->normal.end()});
+  if (wall) json["wall"]["normal"] = rounded_for_page(std::vector<double>(wall->normal.begin(), wall->normal.end()));
   json["position"] = position.json();
   json["radius"] = rounded_for_page(radius);
   json["unit"] = printed_unit(length.symbol);
