@@ -37,7 +37,8 @@ BOOST_AUTO_TEST_CASE(the_nearest_point_of_an_ellipsoid_is_found_between_nodes) {
   BOOST_TEST((found.place - lowest).norm() < 1e-7);
 }
 
-// Mirrors that leave the wall, turns about its normal, all turns.
+// Mirrors that leave the wall, turns about its normal, all turns. On a grid of 9 x 18 nodes mirrors leave 5 x 10: those
+// in their planes are their own images.
 BOOST_AUTO_TEST_CASE(layers_at_nodes_that_symmetries_relate_follow_from_one_of_them) {
   constexpr int kOrder = 8;
   const Space space(kOrder);
@@ -46,7 +47,7 @@ BOOST_AUTO_TEST_CASE(layers_at_nodes_that_symmetries_relate_follow_from_one_of_t
   const Symmetry all_turns{
       .axisymmetric = true, .reflections = {{}, {-1, 1, 1}, {1, -1, 1}, {-1, -1, 1}}, .potential_signs = {1, 1, 1, 1}};
   for (const auto& [symmetry, normal, share] :
-       {std::tuple{mirrors, Vector3::UnitX().eval(), 0.3}, std::tuple{turns, Vector3::UnitZ().eval(), 0.34},
+       {std::tuple{mirrors, Vector3::UnitX().eval(), 0.31}, std::tuple{turns, Vector3::UnitZ().eval(), 0.34},
         std::tuple{all_turns, Vector3::UnitZ().eval(), 0.07}}) {
     const Wall wall{Vector3::Zero(), normal, WallFlow::no_slip, WallField::electrode};
     const SymmetrySubspace subspace(symmetry, kOrder);
