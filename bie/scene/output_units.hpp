@@ -25,8 +25,8 @@ struct OutputUnit {
 class OutputUnits {
  public:
   OutputUnits() = default;
-  /// The units that [output] of the scene requests: in SI units `Dimension::result_unit`, the same for every scene.
-  /// What the scene has no reference scale for stays dimensionless.
+  /// The units that [output] of the scene requests: in SI units one for each dimension, the same for every
+  /// scene (docs/run_files.md). A dimension without a reference scale in the scene stays dimensionless.
   explicit OutputUnits(const Scene& scene);
   /// The units of a run that has begun, with whatever prefixes.
   /// @param symbols  of dimensions by their names; the others are dimensionless
