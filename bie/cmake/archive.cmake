@@ -28,7 +28,7 @@ set(left_out_of_python
 set(left_out_of_mpi "_(rsh|ucx|ofi|openib|psm2?|flux|jsm|slurm|gridengine)\\.so$" "/mca_(memheap|spml|scoll|sshmem|atomic)_"
     "dbg_msgq")
 # Packages of headers alone, which are compiled into vehd.
-set(header_packages libeigen3-dev libcli11-dev nlohmann-json3-dev pybind11-dev)
+set(header_packages libeigen3-dev libboost-dev libcli11-dev nlohmann-json3-dev pybind11-dev)
 
 function(run)
   cmake_parse_arguments(run "" "OUTPUT" "" ${ARGN})
