@@ -29,11 +29,12 @@ struct WallGap {
   Vector3 place = Vector3::Zero();  ///< on the membrane
 };
 
+/// The point of a membrane that is nearest to a wall.
 /// @param fine      degree p ↔ a finer grid, from whose lowest nodes the lowest point is sought
 /// @param position  coefficients of x, [n_coefficients x 3]
 /// Accuracy: that of top_of on that grid
 WallGap nearest_to_wall(const Wall& wall, const SphereTransform& fine, const Matrix& position);
-/// The same from a grid of twice the degree.
+/// The point of a membrane that is nearest to a wall, sought on a grid of twice its degree.
 WallGap nearest_to_wall(const Wall& wall, const Matrix& position);
 
 }  // namespace vehd

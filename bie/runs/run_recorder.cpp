@@ -209,9 +209,9 @@ void RunRecorder::save(const RunTotals& totals) {
 void RunRecorder::list_in_xdmf(double time, const std::vector<Matrix>& x) {
   xdmf_.times.push_back(time);
   if (!wall_) return;
-  double area = 0.0;
-  for (const VesicleState& vesicle : last_.state.vesicles) area = std::max(area, vesicle.reference_area);
-  xdmf_.walls.push_back(square_of(*wall_, x, std::sqrt(area / (4.0 * std::numbers::pi))));
+  double radius = 0.0;
+  for (const VesicleState& vesicle : last_.state.vesicles) radius = std::max(radius, vesicle.radius());
+  xdmf_.walls.push_back(square_of(*wall_, x, radius));
 }
 
 void RunRecorder::write_xdmf() {
