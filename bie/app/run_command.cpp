@@ -55,6 +55,7 @@ void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
   if (summary.contains("error_bars") && summary["error_bars"].contains("text")) {
     fmt::print("largest estimated error: {}\n", summary["error_bars"]["text"].get<std::string>());
   }
+  if (summary.contains("regime")) fmt::print("motion in shear: {}\n", summary["regime"].get<std::string>());
   if (const auto symmetry = summary["symmetry"].get<std::string>(); symmetry != "none") {
     fmt::print("symmetry: {} (imposed by the start: nothing that breaks it can grow)\n", symmetry);
   }
@@ -81,8 +82,9 @@ ExitCode run(const RunOptions& options, const Ranks& ranks) {
   std::optional<Interruption> interruption(std::in_place);
   const std::filesystem::path directory = directory_of(options);
   SceneSource source = options.scene.source;
-  if (options.resume) source = in_scales_of(std::move(source), {directory});
-  if (!options.from.empty()) source = in_scales_of(std::move(source), {options.from});
+  if (options.resume || !options.from.empty()) {
+    source = in_scales_of(std::move(source), {options.from.empty() ? directory : options.from});
+  }
   const Scene scene = read_scene(source);
   const RunSession session(scene, source, directory, options.resume, ranks, false, options.from);
   if (session.is_complete()) {

@@ -261,7 +261,7 @@ class FrozenSolver {
 
   static void remove_mean(const Membrane& membrane, Vector& coefficients) {
     const double area = membrane.fine.analyze(membrane.surface.area_element)(0, 0);
-    coefficients[0] -= weighted(membrane, coefficients)(0, 0) / area * std::sqrt(4.0 * std::numbers::pi);
+    coefficients[0] -= weighted(membrane, coefficients)(0, 0) / area * coefficient_of_one;
   }
 
   const CheckProblem& problem_;

@@ -118,6 +118,11 @@ Vector3 surface_mean(const Surface& surface, const Matrix& values) {
 
 Vector3 centroid(const Surface& surface) { return surface_mean(surface, surface.position); }
 
+double distance_variation(const Surface& surface) {
+  const Vector distance = (surface.position.rowwise() - centroid(surface).transpose()).rowwise().norm();
+  return distance.maxCoeff() - distance.minCoeff();
+}
+
 double enclosed_volume(const Surface& surface) {
   return row_dot(surface.position, surface.normal).dot(surface.quadrature) / 3.0;
 }

@@ -62,6 +62,8 @@ double surface_area(const Surface& surface);
 Vector3 surface_mean(const Surface& surface, const Matrix& values);
 /// Centroid of the surface, ∫x dA / ∫dA.
 Vector3 centroid(const Surface& surface);
+/// Largest less smallest distance of the grid points from the centroid: rounding on a sphere, wherever its points are.
+double distance_variation(const Surface& surface);
 /// ∫ x·n dA / 3.
 /// Accuracy: spectral; of a 2:1 prolate to 1e-13 (tests/geometry/curvature_test.cpp)
 /// Source: Gauss's theorem

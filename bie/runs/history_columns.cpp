@@ -217,6 +217,12 @@ std::vector<HistoryColumn> mode_columns() {
           {"shape_mode_6", "1", shape_mode<6>}};
 }
 
+/// Of a linear flow that turns.
+std::vector<HistoryColumn> turning_columns() {
+  return {{"tumbling_frequency", "1/time", of_vesicle<&D::tumbling_frequency>},
+          {"treading_frequency", "1/time", of_vesicle<&D::treading_frequency>}};
+}
+
 /// Of a flow along x with its gradient along z.
 std::vector<HistoryColumn> normal_stress_columns() {
   return {{"normal_stress_1", "energy",
@@ -277,6 +283,7 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
           if (!of_whole) append({{"shape_rate", "1/time", of_vesicle<&D::shape_rate>, ColumnMeaning::method}});
           if (!of_whole) append(mode_columns());
           append(normal_stress_columns());
+          if (!of_whole) append(turning_columns());
         }
       }
     }

@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "bie/files/run_file.hpp"
 #include "bie/runs/snapshot_copy.hpp"
 #include "bie/runs/vesicle_rows.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/units.hpp"
+#include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/space/resolution.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -80,7 +78,7 @@ Matrix square_of(const Wall& wall, const std::vector<Matrix>& x, double radius) 
   constexpr double radii_beyond = 5.0;
   Matrix middles(std::ssize(x), 3);
   for (Index a = 0; a < middles.rows(); ++a) {
-    middles.row(a) = x[static_cast<std::size_t>(a)].row(0) / std::sqrt(4.0 * std::numbers::pi);
+    middles.row(a) = mean_vector(x[static_cast<std::size_t>(a)]).transpose();
   }
   const Eigen::RowVector3d middle = middles.colwise().mean();
   const double half = radii_beyond * radius + (middles.rowwise() - middle).rowwise().norm().maxCoeff();

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "bie/support/types.hpp"
 
 /// Real orthonormal spherical harmonics without the Condon-Shortley sign: with N P the normalised Legendre function,
@@ -19,6 +22,13 @@ int degree_of(Index index);
 /// Order p of a coefficient array with (p+1)² rows.
 /// @throws ShapeError if the count is no square
 int order_of(Index n_coefficients);
+
+/// Coefficient of degree 0 of the field that is 1 everywhere: 1/Y_{0,0}.
+inline const double coefficient_of_one = std::sqrt(4.0 * std::numbers::pi);
+
+/// Mean of a vector field over the parameter sphere, of a position a point within the body that moves with it.
+/// @param coefficients  [n_coefficients x 3]
+inline Vector3 mean_vector(const Matrix& coefficients) { return coefficients.row(0).transpose() / coefficient_of_one; }
 
 /// Coefficients cut or padded with zeros to another order, [(order + 1)² x n_fields].
 Matrix resize_order(const Matrix& coefficients, int order);

@@ -246,7 +246,7 @@ StepAttempt Evolution::attempted(const StepPlan& plan, const SnapshotTimes& snap
                                        former.reason.empty() ? rounding : former.reason));
   }
   const StepGoal goal{control.tolerance, snapshots};
-  StepAttempt attempt = attempt_step(setup_.model, discretisation_, state_, evaluation_, plan.dt, instruments_,
+  StepAttempt attempt = attempt_step({setup_.model, discretisation_, state_, evaluation_}, plan.dt, instruments_,
                                      adapts() ? &goal : nullptr);
   attempt.add_work_of(former);
   return attempt;

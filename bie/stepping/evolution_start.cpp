@@ -7,8 +7,8 @@
 #include "bie/stepping/state/state.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/stepping/thresholds.hpp"
+#include "bie/stepping/time/node_solution.hpp"
 #include "bie/stepping/time/step_control.hpp"
-#include "bie/stepping/time/step_operations.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <sstream>
 #include <string_view>
 
 #include "bie/runs/run_files.hpp"
+#include "bie/runs/summary.hpp"
 #include "bie/runs/verdict.hpp"
 #include "bie/support/checksum.hpp"
 #include "bie/support/errors.hpp"
@@ -203,6 +205,27 @@ BOOST_AUTO_TEST_CASE(normal_stresses_are_differences_of_the_stress) {
   BOOST_TEST(value("normal_stress_1") == value("stress_xx") - value("stress_zz"));
   BOOST_TEST(value("normal_stress_1") == 4.5);
   BOOST_TEST(value("normal_stress_2") == -0.25);
+}
+
+BOOST_AUTO_TEST_CASE(the_regime_is_that_of_the_second_half) {
+  // In ms, frequencies in 1/s: the units must not matter.
+  const auto regime = [&](auto tumbling, double treading) {
+    vehd::HistoryTable table(kUnits, vehd::HistoryKind::of_one);
+    for (int i = 0; i <= 200; ++i) {
+      vehd::HistoryRow row = row_at(0.1 * i);
+      row.diagnostics.vesicles[0].tumbling_frequency = tumbling(row.time);
+      row.diagnostics.vesicles[0].treading_frequency = treading;
+      table.append(row);
+    }
+    return vehd::regime_of(table, kUnits);
+  };
+  const auto settling = [](double t) { return t < 9.0 ? 0.3 : 0.0; };
+  BOOST_TEST(regime(settling, -0.05) == "tank-treading");
+  BOOST_TEST(regime(settling, 0.001) == "unsettled");
+  BOOST_TEST(regime([](double) { return -0.06; }, 0.0) == "tumbling");
+  BOOST_TEST(regime([](double t) { return 0.05 * std::sin(2.0 * t); }, 0.05) == "trembling");
+  BOOST_TEST(regime([](double t) { return 0.1 * std::exp(-t / 10.0); }, 0.05) == "unsettled");
+  BOOST_TEST(regime([](double) { return 0.0; }, 0.0) == "");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

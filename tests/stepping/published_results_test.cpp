@@ -46,7 +46,7 @@ VesicleDiagnostics result_of(const Model& model, const Matrix& position, double 
   while (state.time < end_time - 1e-9) {
     const SolvedFields fields = solve_fields(model, discretisation, state, instruments);
     const StepAttempt advanced =
-        attempt_step(model, discretisation, state, fields, std::min(dt, end_time - state.time), instruments);
+        attempt_step({model, discretisation, state, fields}, std::min(dt, end_time - state.time), instruments);
     if (!advanced.accepted) throw std::runtime_error(advanced.reason);
     state = advanced.state;
   }

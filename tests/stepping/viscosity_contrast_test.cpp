@@ -80,7 +80,7 @@ std::vector<double> inclinations(const Model& model, const Matrix& position, dou
   for (int i = 0; i < n_steps; ++i) {
     const Evaluation evaluation = evaluate(model, discretisation, state, instruments);
     result.push_back(evaluation.diagnostics.vesicles[0].inclination_deg);
-    const StepAttempt advanced = attempt_step(model, discretisation, state, evaluation, dt, instruments);
+    const StepAttempt advanced = attempt_step({model, discretisation, state, evaluation}, dt, instruments);
     if (!advanced.accepted) throw std::runtime_error(advanced.reason);
     state = advanced.state;
   }

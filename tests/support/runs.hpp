@@ -114,7 +114,7 @@ inline Evaluated evaluated(const Model& model, const Discretisation& discretisat
 
 inline StepAttempt stepped(const Model& model, const Discretisation& discretisation, const State& state, double dt) {
   Instruments instruments;
-  return attempt_step(model, discretisation, state, solve_fields(model, discretisation, state, instruments), dt,
+  return attempt_step({model, discretisation, state, solve_fields(model, discretisation, state, instruments)}, dt,
                       instruments);
 }
 

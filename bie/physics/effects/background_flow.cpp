@@ -35,6 +35,11 @@ EffectRow background_flow_row() {
   return {kBackgroundFlow, nullptr, [](Model& model, VesicleModel&) { model.flow.reset(); }};
 }
 
+Vector3 vorticity(const BackgroundFlow& flow) {
+  const Matrix3& g = flow.gradient;
+  return {g(2, 1) - g(1, 2), g(0, 2) - g(2, 0), g(1, 0) - g(0, 1)};
+}
+
 EffectDescription LinearFlowEffect::description() const {
   return {kBackgroundFlow, "v_inf = gradient x on the right of Eq. (5)", {}, {}};
 }

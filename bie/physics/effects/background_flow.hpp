@@ -24,6 +24,9 @@ BackgroundFlow planar_extension(double rate);
 /// Accuracy: exact (tests/physics/background_flow_test.cpp)
 BackgroundFlow axisymmetric_extension(double rate);
 
+/// ∇ × v_∞ at waveform 1, in 1/time.
+Vector3 vorticity(const BackgroundFlow& flow);
+
 /// Adds v_∞(x) of a BackgroundFlow to the velocity of the undisturbed fluid: linear in x, hence exact in coefficients.
 /// Source: paper Eqs. (1c), (5)
 class LinearFlowEffect : public ExplicitEffect {

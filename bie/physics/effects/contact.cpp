@@ -33,7 +33,7 @@ struct Ball {
 };
 
 Ball ball_about(const ContactMembrane& of) {
-  const Vector3 centre = of.position.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
+  const Vector3 centre = mean_vector(of.position);
   const Matrix from_centre = of.membrane.surface.position.rowwise() - centre.transpose();
   return {centre, from_centre.rowwise().norm().maxCoeff()};
 }

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include "bie/geometry/surface.hpp"
 #include "bie/pictures/colours.hpp"
@@ -89,7 +87,7 @@ nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>
     const RunSnapshot snapshot = run.snapshot(number);
     Matrix x = snapshot.coefficients("x", 3);
     if (wall) {
-      const double height = wall->height(x.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi));
+      const double height = wall->height(mean_vector(x));
       json["wall"]["heights"].push_back(rounded_for_page(height * length.factor));
     }
     x *= length.factor;

@@ -126,7 +126,7 @@ class VesicleChecks {
   }
 
   void check_pair(std::size_t a, std::size_t b, const std::vector<Matrix>& positions) const {
-    const double distance = (positions[a].row(0) - positions[b].row(0)).norm() / std::sqrt(4.0 * std::numbers::pi);
+    const double distance = (mean_vector(positions[a]) - mean_vector(positions[b])).norm();
     if (distance > 1.01 * (reach_bound(positions[a]) + reach_bound(positions[b]))) return;
     const Arrangement arrangement = arrangement_of(positions[a], positions[b]);
     if (arrangement == Arrangement::apart) return check_gap(a, b, positions);

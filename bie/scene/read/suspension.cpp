@@ -194,7 +194,7 @@ class Placement {
   [[nodiscard]] Matrix position_of(const PlacedVesicle& vesicle) const {
     const Matrix3 rotation = vesicle.rotation ? rotation_matrix(*vesicle.rotation) : Matrix3(Matrix3::Identity());
     Matrix moved = shape_.position * rotation.transpose();
-    moved.row(0) += std::sqrt(4.0 * std::numbers::pi) * vesicle.centre.transpose();
+    moved.row(0) += coefficient_of_one * vesicle.centre.transpose();
     return moved;
   }
 

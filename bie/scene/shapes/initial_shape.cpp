@@ -183,7 +183,7 @@ Extremes radius_extremes(const Scene& scene) {
 Vector place_factor(const PlaceScene& places, int order) {
   if (places.kind != PlaceKind::cap) {
     Vector factor = sum_of_modes(places.modes, order);
-    factor[0] += places.base * std::sqrt(4.0 * std::numbers::pi);
+    factor[0] += places.base * coefficient_of_one;
     return factor;
   }
   const SphereTransform transform = cap_transform(order);

@@ -5,7 +5,6 @@
 #include <complex>
 #include <numbers>
 
-#include "bie/geometry/roundness.hpp"
 #include "bie/geometry/surface.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/rotation.hpp"
@@ -46,7 +45,7 @@ Vector rotated_scalar(const Vector& field, const Matrix3& rotation) {
 }
 
 Matrix shifted(Matrix position, const Triple& by) {
-  for (int i = 0; i < 3; ++i) position(0, i) += by[static_cast<std::size_t>(i)] * std::sqrt(4.0 * std::numbers::pi);
+  for (int i = 0; i < 3; ++i) position(0, i) += by[static_cast<std::size_t>(i)] * coefficient_of_one;
   return position;
 }
 

@@ -107,7 +107,7 @@ double spectrum_tail(const Matrix& position) {
 VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame, const SphereTransform& fine,
                                         const Surface& s, const SurfaceFields& membrane, const VesicleFields& fields) {
   // About its mean, so that no digit depends on where the vesicle is.
-  const Vector3 mean = membrane.position.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
+  const Vector3 mean = mean_vector(membrane.position);
   Matrix position = membrane.position * frame.axes.transpose();
   position.row(0).setZero();
   const SphereDerivatives x = fine.synthesize_hessian(position);
@@ -140,8 +140,8 @@ VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame
 namespace {
 
 /// Where the membrane is, how it moves and how it is stretched.
-void add_moments(const Vector3& field, const SphereTransform& fine, const Surface& s, const VesicleFields& fields,
-                 VesicleDiagnostics& d) {
+void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTransform& fine, const Surface& s,
+                 const VesicleFields& fields, VesicleDiagnostics& d) {
   const VolumeMoments moments = volume_moments(s);
   std::tie(d.centroid_x, d.centroid_y, d.centroid_z) = components(moments.centroid);
   if (fields.velocity.size() > 0) {
@@ -151,6 +151,11 @@ void add_moments(const Vector3& field, const SphereTransform& fine, const Surfac
     const Matrix relative = velocity.rowwise() - of_centroid.transpose();
     d.shape_rate = relative.cwiseProduct(s.normal).rowwise().sum().cwiseAbs().maxCoeff() /
                    std::sqrt(d.area / (4.0 * std::numbers::pi));
+    if (!vorticity.isZero(0.0)) {
+      const Turning turns = turning(s, moments, velocity, vorticity);
+      d.tumbling_frequency = turns.shape;
+      d.treading_frequency = turns.membrane;
+    }
   }
   d.aspect_ratio = moments.aspect_ratio();
   if (field.isZero(0.0)) return;
@@ -161,7 +166,7 @@ void add_moments(const Vector3& field, const SphereTransform& fine, const Surfac
 /// V_m of an averaged field, by its magnitude.
 void add_amplitudes(const Vector3& field, const SphereTransform& fine, const Surface& s, const VesicleState& vesicle,
                     const Matrix& amplitude, VesicleDiagnostics& d) {
-  const Vector3 mean = vesicle.position.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
+  const Vector3 mean = mean_vector(vesicle.position);
   const auto at_poles = [&](Index part) {
     return values_at_poles(field, fine, centroid(s) - mean, vesicle.position, amplitude.col(part));
   };
@@ -252,7 +257,7 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
   d.volume_drift = d.volume / vesicle.reference_volume - 1.0;
   d.strain_max = fine.synthesize(vesicle.area_strain).cwiseAbs().maxCoeff();
   d.spectrum_tail = spectrum_tail(vesicle.position);
-  add_moments(field, fine, s, fields, d);
+  add_moments(field, model.flow ? vorticity(*model.flow) : Vector3(Vector3::Zero()), fine, s, fields, d);
   if (fields.tension.size() > 0) {
     const Vector tension = fine.synthesize(fields.tension);
     d.tension_integral = tension.dot(s.quadrature);
@@ -270,7 +275,7 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
   if (potential.size() > 0) {
     const SphereDerivatives v = fine.synthesize_hessian(potential);
     if (!field.isZero(0.0)) {
-      const Vector3 mean = vesicle.position.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
+      const Vector3 mean = mean_vector(vesicle.position);
       const auto [plus, minus] = values_at_poles(field, fine, centroid(s) - mean, vesicle.position, potential);
       d.Vm_pole_plus = plus;
       d.Vm_pole_minus = minus;

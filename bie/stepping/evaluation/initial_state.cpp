@@ -1,8 +1,6 @@
 #include "bie/stepping/evaluation/initial_state.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "bie/physics/electric.hpp"
@@ -32,7 +30,7 @@ SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, cons
   if (relaxes_charge(model)) fields.free_charge = Vector::Zero(n);
   if (vesicle.reaction) {
     fields.poration = Vector::Zero(n);
-    fields.poration[0] = vesicle.reaction->start() * std::sqrt(4.0 * std::numbers::pi);
+    fields.poration[0] = vesicle.reaction->start() * coefficient_of_one;
   }
   return fields;
 }

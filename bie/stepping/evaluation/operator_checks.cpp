@@ -89,7 +89,7 @@ LayerCheck check_layers(const Membrane& membrane) {
   }
   if (!membrane.layers.laplace_double.empty()) {
     Vector one = Vector::Zero(n_coefficients(fine.order()));
-    one[0] = std::sqrt(4.0 * std::numbers::pi);
+    one[0] = coefficient_of_one;
     const Matrix image = fine.synthesize(membrane.layers.laplace_double.apply(one));
     check.error = std::max(check.error, (image.array() + 0.5).abs().maxCoeff());
   }

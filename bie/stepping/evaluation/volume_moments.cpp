@@ -1,7 +1,9 @@
 #include "bie/stepping/evaluation/volume_moments.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "bie/sphere/principal_axes.hpp"
 
@@ -47,6 +49,37 @@ VolumeMoments volume_moments(const Surface& s) {
 Vector3 centroid_velocity(const Surface& s, const VolumeMoments& moments, const Matrix& velocity) {
   const Matrix y = s.position.rowwise() - moments.centroid.transpose();
   return flux_mean(s, velocity, y).transpose() / enclosed_volume(s);
+}
+
+Turning turning(const Surface& s, const VolumeMoments& moments, const Matrix& velocity, const Vector3& axis) {
+  // Two directions that form a right-handed system with the axis.
+  Eigen::Matrix<double, 3, 2> across;
+  across.col(0) = axis.unitOrthogonal();
+  across.col(1) = axis.normalized().cross(across.col(0));
+  const Matrix y = (s.position.rowwise() - moments.centroid.transpose()) * across;
+  const Matrix relative = velocity.rowwise() - centroid_velocity(s, moments, velocity).transpose();
+
+  // tan 2ψ = 2 G₁₂/(G₁₁ − G₂₂) of the second moments G of the volume, dG/dt = ∫ (v·n) y yᵀ dA.
+  const Eigen::Matrix2d spread = across.transpose() * moments.spread * across;
+  Eigen::Matrix2d rate;
+  for (int i = 0; i < 2; ++i) {
+    rate.row(i) = flux_mean(s, relative, y.col(i).asDiagonal() * y) / enclosed_volume(s);
+  }
+  const double difference = spread(0, 0) - spread(1, 1), product = 2.0 * spread(0, 1);
+  const double length = std::hypot(difference, product);
+  constexpr double rounding = 1e-9;
+  const double turned = length <= rounding * spread.trace()
+                            ? 0.0
+                            : (difference * rate(0, 1) - product * 0.5 * (rate(0, 0) - rate(1, 1))) / (length * length);
+
+  const Matrix weighted = s.quadrature.asDiagonal() * y;
+  Eigen::Matrix2d fit = ((relative * across).transpose() * weighted) * (y.transpose() * weighted).inverse();
+  fit(0, 1) += turned;
+  fit(1, 0) -= turned;
+  const double square = fit.determinant() - 0.25 * fit.trace() * fit.trace();
+  const double around = std::copysign(std::sqrt(std::max(square, 0.0)), fit(1, 0) - fit(0, 1));
+  constexpr double whole = 2.0 * std::numbers::pi;
+  return {turned / whole, around / whole};
 }
 
 std::array<double, 5> shape_modes(const Surface& s, const Vector3& centre, const Vector3& axis) {

@@ -1,11 +1,9 @@
 #include "bie/stepping/solve/flow_equations.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "bie/geometry/roundness.hpp"
+#include "bie/geometry/surface.hpp"
 #include "bie/physics/effects/bending.hpp"
 #include "bie/physics/effects/tension.hpp"
 #include "bie/physics/effects/undulations.hpp"
@@ -114,7 +112,7 @@ Vector FlowEquations::spread(const Eigen::Ref<const Vector>& of_entries, Index c
 /// Changes the uniform part.
 void FlowEquations::with_mean(double mean, Vector& tension) const {
   tension[0] = 0.0;
-  tension[0] = std::sqrt(4.0 * std::numbers::pi) * (mean - mean_tension(membrane().fine, membrane().surface, tension));
+  tension[0] = coefficient_of_one * (mean - mean_tension(membrane().fine, membrane().surface, tension));
 }
 
 FlowScalars FlowEquations::unknowns(const Vector& v) const {

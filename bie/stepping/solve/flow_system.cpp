@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "bie/sphere/harmonics.hpp"
@@ -107,7 +106,7 @@ const FlowSystem::Solution& FlowSystem::of_uniform_tension(double tolerance) {
   if (of_uniform_tension_) return *of_uniform_tension_;
   const FlowEquations& one = equations_.front();
   FlowScalars uniform = one.unknowns(Vector::Zero(one.size()));
-  uniform.tension[0] = std::sqrt(4.0 * std::numbers::pi);
+  uniform.tension[0] = coefficient_of_one;
   const Matrix velocity = flow_.velocities({one.membrane().weighted(one.force(uniform))}).front();
   of_uniform_tension_ = solve({-one.left_side(velocity)}, tolerance);
   of_uniform_tension_->velocities.front() += velocity;

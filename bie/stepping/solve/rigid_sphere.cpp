@@ -3,9 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/neighbourhood.hpp"
@@ -138,7 +136,7 @@ SurfaceFields at_translated_nodes(const Matrix& position, const Membrane& sphere
   const Matrix from = origins(sphere, motion, material.position, places);
   SurfaceFields result = material;
   result.position = position;
-  result.position.row(0) += std::sqrt(4.0 * std::numbers::pi) * motion.translation.transpose();
+  result.position.row(0) += coefficient_of_one * motion.translation.transpose();
   for_each_scalar(
       result, [&](Vector& scalar) { scalar = fine.analyze(evaluate_harmonics(scalar, from, fine.azimuthal_order())); });
   return result;

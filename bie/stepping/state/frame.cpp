@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "bie/physics/rotated.hpp"
@@ -108,7 +106,7 @@ bool is_same_everywhere(const Model& model) {
 Vector3 mean_position(const State& state) {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   for (const VesicleState& vesicle : state.vesicles) sum += vesicle.position.row(0);
-  return sum / (static_cast<double>(state.vesicles.size()) * std::sqrt(4.0 * std::numbers::pi));
+  return sum / (static_cast<double>(state.vesicles.size()) * coefficient_of_one);
 }
 
 /// The laboratory's, and the mean position where the scene is the same about it.
@@ -134,7 +132,7 @@ double worth(const Symmetry& symmetry, bool rotated, std::size_t n_vesicles) {
 }
 
 /// In coefficients of degree 0.
-Eigen::RowVector3d shift_of(const Frame& frame) { return frame.origin.transpose() * std::sqrt(4.0 * std::numbers::pi); }
+Eigen::RowVector3d shift_of(const Frame& frame) { return frame.origin.transpose() * coefficient_of_one; }
 
 /// "x", "y", "z" or its components.
 std::string axis_name(const Vector3& axis) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "bie/stepping/time/past.hpp"
+
 namespace vehd {
 
 namespace {
@@ -17,7 +19,7 @@ constexpr double largest_derivative_ratio = 8.0;
 Collocation::Collocation(StepOperations& physics, const TimeRule& rule, double dt, NodeEnd end, Predictor predictor)
     : physics_(physics), rule_(rule), dt_(dt), predictor_(predictor) {
   if (predictor == Predictor::extrapolation) {
-    for (const double node : rule.nodes) nodes_.push_back(predicted(physics.start().time + node * dt));
+    for (const double node : rule.nodes) nodes_.push_back(predicted(physics.start().state.time + node * dt));
     predicted_ = nodes_;
     return;
   }
@@ -29,8 +31,8 @@ Collocation::Collocation(StepOperations& physics, const TimeRule& rule, double d
 }
 
 NodeSolution Collocation::predicted(double time) const {
-  if (predictor_ == Predictor::extrapolation) return physics_.extrapolated(time);
-  return physics_.first_order_step({time - physics_.start().time, NodeEnd::material});
+  if (predictor_ == Predictor::extrapolation) return extrapolated(physics_.start(), time);
+  return physics_.first_order_steps({{time - physics_.start().state.time, NodeEnd::material}}).front();
 }
 
 NodeSolution Collocation::within(double time) const {
@@ -53,12 +55,13 @@ NodeSolution Collocation::within(double time) const {
 void Collocation::evaluate_rates() {
   former_rates_ = std::move(rates_);
   rates_ = physics_.rates(nodes_);
-  rates_.insert(rates_.begin(), physics_.rate());
+  rates_.insert(rates_.begin(), rate_of(physics_.start().solved));
 }
 
 std::optional<InstantaneousDifference> Collocation::change_at_last() const {
   if (former_rates_.empty()) return {};
-  return physics_.instantaneous_difference(former_rates_.back(), rates_.back());
+  const StepStart& start = physics_.start();
+  return instantaneous_difference(start.model, start.solved, former_rates_.back(), rates_.back());
 }
 
 namespace {
@@ -77,7 +80,7 @@ std::vector<Unknowns> Collocation::residual(const Vector& weights, const NodeSol
                                             const std::vector<Rate>& rates) const {
   std::vector<Unknowns> residual;
   for (std::size_t a = 0; a < y.vesicles.size(); ++a) {
-    residual.push_back(physics_.start().vesicles[a] - y.vesicles[a].material);
+    residual.push_back(physics_.start().state.vesicles[a] - y.vesicles[a].material);
   }
   add_rates(dt_ * weights, rates, residual);
   return residual;
@@ -88,8 +91,10 @@ ImplicitSolve Collocation::correction(std::size_t m, NodeEnd end) const {
   return {&nodes_[m], residual(weights, nodes_[m], rates_), rule_.implicit_sizes[m] * dt_, end};
 }
 
-NodeSolution Collocation::corrected(std::size_t m, NodeEnd end) const {
-  return physics_.implicit_solve(correction(m, end));
+NodeSolution Collocation::corrected(std::size_t m, NodeEnd end) const { return solved(correction(m, end)); }
+
+NodeSolution Collocation::solved(const ImplicitSolve& solve) const {
+  return std::move(physics_.implicit_solves({solve}).front());
 }
 
 std::vector<NodeSolution> Collocation::all_corrected(NodeEnd end) const {
@@ -101,19 +106,19 @@ std::vector<NodeSolution> Collocation::all_corrected(NodeEnd end) const {
 
 NodeSolution Collocation::corrected(const NodeSolution& y, NodeEnd end) const {
   const Vector weights = integration_weights(points_of(rule_), place_of(y.time));
-  return physics_.implicit_solve({&y, residual(weights, y, rates_), rule_.implicit_sizes.back() * dt_, end});
+  return solved({&y, residual(weights, y, rates_), rule_.implicit_sizes.back() * dt_, end});
 }
 
 NodeSolution Collocation::corrected_with_rate(const NodeSolution& y, NodeEnd end) const {
   std::vector<double> points = points_of(rule_);
   points.push_back(place_of(y.time));
   std::vector<Rate> rates = rates_;
-  rates.push_back(physics_.rate(y));
+  rates.push_back(std::move(physics_.rates({&y, 1}).front()));
   const Vector weights = integration_weights(points, points.back());
-  return physics_.implicit_solve({&y, residual(weights, y, rates), rule_.implicit_sizes.back() * dt_, end});
+  return solved({&y, residual(weights, y, rates), rule_.implicit_sizes.back() * dt_, end});
 }
 
-double Collocation::place_of(double time) const { return (time - physics_.start().time) / dt_; }
+double Collocation::place_of(double time) const { return (time - physics_.start().state.time) / dt_; }
 
 std::vector<VisibleDifference> Collocation::derivatives() const {
   const NodeSolution& end = nodes_.back();
@@ -123,8 +128,8 @@ std::vector<VisibleDifference> Collocation::derivatives() const {
     add_rates(dt_ * derivative_weights(points_of(rule_), k), rates_, moved);
     // One after the other: solves of one size share their systems.
     const NodeSolution followed =
-        physics_.implicit_solve({&end, std::move(moved), rule_.implicit_sizes.back() * dt_, NodeEnd::material});
-    result.push_back(physics_.visible_difference(end, followed));
+        solved({&end, std::move(moved), rule_.implicit_sizes.back() * dt_, NodeEnd::material});
+    result.push_back(visible_difference(physics_.start(), end, followed));
   }
   return result;
 }

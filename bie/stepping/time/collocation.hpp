@@ -54,6 +54,7 @@ class Collocation {
 
  private:
   [[nodiscard]] ImplicitSolve correction(std::size_t m, NodeEnd end) const;
+  [[nodiscard]] NodeSolution solved(const ImplicitSolve& solve) const;
   [[nodiscard]] NodeSolution predicted(double time) const;
   [[nodiscard]] std::vector<Unknowns> residual(const Vector& weights, const NodeSolution& y,
                                                const std::vector<Rate>& rates) const;

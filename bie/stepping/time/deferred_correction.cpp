@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bie/stepping/thresholds.hpp"
+#include "bie/stepping/time/past.hpp"
 #include "bie/stepping/time/step_control.hpp"
 
 namespace vehd {
@@ -12,7 +13,7 @@ namespace vehd {
 int evaluations_per_step(int order) { return 1 + (order - 1) * static_cast<int>(time_rule(order).nodes.size()); }
 
 CorrectedNode deferred_correction(StepOperations& physics, double dt, int order) {
-  if (order == 1) return {physics.first_order_step({dt, NodeEnd::remapped})};
+  if (order == 1) return {physics.first_order_steps({{dt, NodeEnd::remapped}}).front()};
   const TimeRule rule = time_rule(order);
   Collocation y(physics, rule, dt, NodeEnd::material);
   CorrectedNode result;
@@ -24,7 +25,7 @@ CorrectedNode deferred_correction(StepOperations& physics, double dt, int order)
     }
     // Nodes are independent within a sweep, so the last one alone needs the end of the step.
     NodeSolution corrected = y.corrected(y.last(), NodeEnd::remapped);
-    result.last_correction = physics.difference(y.node(y.last()), corrected);
+    result.last_correction = difference(physics.start(), y.node(y.last()), corrected);
     y.node(y.last()) = std::move(corrected);
   }
   result.node = std::move(y.node(y.last()));
@@ -73,11 +74,11 @@ struct SweepErrors {
   }
 };
 
-double largest_change(const StepOperations& physics, const Collocation& y, const std::vector<NodeSolution>& corrected) {
+double largest_change(const StepStart& start, const Collocation& y, const std::vector<NodeSolution>& corrected) {
   // The correction of one node may pass through zero by chance.
   double largest = 0.0;
   for (std::size_t m = 0; m < corrected.size(); ++m) {
-    largest = std::max(largest, largest_of(physics.visible_difference(y.node(m), corrected[m])));
+    largest = std::max(largest, largest_of(visible_difference(start, y.node(m), corrected[m])));
   }
   return largest;
 }
@@ -90,7 +91,7 @@ struct Moment {
 
 /// A step after its sweeps.
 struct SweptStep {
-  StepOperations& physics;
+  const StepStart& start;
   const TimeRule& rule;
   double dt;
   const Collocation& y;
@@ -101,17 +102,17 @@ struct SweptStep {
   /// there.
   [[nodiscard]] Moment at(double time, double allowed) const {
     std::vector<double> points = points_of(rule);
-    const double place = (time - physics.start().time) / dt;
+    const double place = (time - start.state.time) / dt;
     Corrections changes;
     const NodeSolution first = y.within(time);
     NodeSolution second = y.corrected(first, NodeEnd::remapped);
-    changes.add(largest_of(physics.visible_difference(first, second)));
+    changes.add(largest_of(visible_difference(start, first, second)));
     // It contracts like the sweeps.
     const double error =
         std::max(changes.error_after(1, errors.visible.contraction()), rule_error(points, place, derivatives));
     if (error <= allowed) return {std::move(second), error};
     NodeSolution third = y.corrected_with_rate(second, NodeEnd::remapped);
-    changes.add(largest_of(physics.visible_difference(second, third)));
+    changes.add(largest_of(visible_difference(start, second, third)));
     points.push_back(place);
     return {std::move(third), std::max(changes.error_after(2), rule_error(points, place, derivatives))};
   }
@@ -119,7 +120,7 @@ struct SweptStep {
 
 /// Finds the states at the moments of the goal. @returns whether all are exact enough
 bool pass_moments(const SweptStep& step, const StepGoal& goal, ControlledSweeps& result) {
-  const double start = step.physics.start().time;
+  const double start = step.start.state.time;
   const double allowed = thresholds::moment_share * goal.tolerance / step.errors.magnification();
   for (const double time : goal.moments.between(start, start + step.dt)) {
     const Moment moment = step.at(time, allowed);
@@ -129,7 +130,7 @@ bool pass_moments(const SweptStep& step, const StepGoal& goal, ControlledSweeps&
       result.factor = std::min(result.factor, size_factor(result.excess, power));
       return false;
     }
-    result.passed.push_back(step.physics.passed_state(moment.solution));
+    result.passed.push_back(state_at(step.start, moment.solution));
   }
   return true;
 }
@@ -139,7 +140,7 @@ bool pass_moments(const SweptStep& step, const StepGoal& goal, ControlledSweeps&
 ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order, const StepGoal& goal) {
   const TimeRule rule = time_rule(order);
   const int n_nodes = static_cast<int>(rule.nodes.size());
-  const Predictor predictor = physics.can_extrapolate(dt) ? Predictor::extrapolation : Predictor::euler;
+  const Predictor predictor = can_extrapolate(physics.start().state, dt) ? Predictor::extrapolation : Predictor::euler;
   Collocation y(physics, rule, dt, NodeEnd::remapped, predictor);
   const double allowed = thresholds::step_share * goal.tolerance;
   ControlledSweeps result;
@@ -151,7 +152,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
     // If this sweep is likely to be the last, its end is remapped at once.
     const bool likely = sweep == order - 1 || (sweep > 1 && errors.after(sweep) <= allowed);
     std::vector<NodeSolution> corrected = y.all_corrected(likely ? NodeEnd::remapped : NodeEnd::material);
-    errors.visible.add(largest_change(physics, y, corrected));
+    errors.visible.add(largest_change(physics.start(), y, corrected));
     const double of_sweeps = errors.after(sweep);
     const bool enough = sweep >= fewest_sweeps(order) && of_sweeps <= allowed;
     if (enough || sweep == order - 1) {
@@ -170,9 +171,9 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   }
   // Solves for states within the step must not change the subspaces that the next step recycles.
   result.state = physics.end_state(y.node(y.last()));
-  if (!pass_moments({physics, rule, dt, y, errors, derivatives}, goal, result)) return result;
+  if (!pass_moments({physics.start(), rule, dt, y, errors, derivatives}, goal, result)) return result;
   // Otherwise extrapolations would amplify stiff errors from step to step.
-  if (errors.visible.converge()) physics.store_past(y.nodes(), result.state);
+  if (errors.visible.converge()) store_past(physics.start(), y.nodes(), result.state);
   result.end = std::move(y.node(y.last()));
   return result;
 }

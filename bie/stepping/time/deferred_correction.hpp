@@ -12,7 +12,7 @@ namespace vehd {
 /// The end of a step.
 struct CorrectedNode {
   NodeSolution node;
-  double last_correction = 0.0;  ///< StepOperations::difference of what it was before; 0 without a correction
+  double last_correction = 0.0;  ///< difference() to what it was before; 0 without a correction
 };
 
 /// New shapes that a step of this order evaluates, its end included.

@@ -8,7 +8,6 @@
 #include "bie/stepping/space/remap.hpp"
 #include "bie/stepping/state/symmetry.hpp"
 #include "bie/stepping/thresholds.hpp"
-#include "bie/stepping/time/step_operations.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/parallel.hpp"
 
@@ -86,29 +85,29 @@ void visit_members(Sent& sent, Visit& visit) {
 
 }  // namespace
 
-bool StepOperations::can_extrapolate(double dt) const {
-  const Vector& times = start_.past_times;
+bool can_extrapolate(const State& state, double dt) {
+  const Vector& times = state.past_times;
   return times.size() > 0 && dt <= -thresholds::longest_extrapolation * times[0];
 }
 
-NodeSolution StepOperations::extrapolated(double time) const {
-  const Vector weights = weights_from_zero(start_.past_times, time - start_.time);
-  NodeSolution result{time, std::vector<Motion>(start_.vesicles.size())};
-  const Exchange& exchange = discretisation_.symmetry().exchange;
-  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
+NodeSolution extrapolated(const StepStart& start, double time) {
+  const Vector weights = weights_from_zero(start.state.past_times, time - start.state.time);
+  NodeSolution result{time, std::vector<Motion>(start.state.vesicles.size())};
+  const Exchange& exchange = start.discretisation.symmetry().exchange;
+  for (std::size_t a = 0; a < start.state.vesicles.size(); ++a) {
     if (exchange.is_image(a)) continue;
-    SurfaceFields fields = start_.vesicles[a];
-    const Matrix& past = start_.vesicles[a].past;
+    SurfaceFields fields = start.state.vesicles[a];
+    const Matrix& past = start.state.vesicles[a].past;
     const Index n_columns = past.cols() / weights.size();
     for (Index j = 0; j < weights.size(); ++j) {
       for_each_block<Unknowns>(fields, [&](auto& field, Index first) {
         field += weights[j] * past.middleCols(j * n_columns + first, field.cols());
       });
     }
-    if (model_.mobile) fields.tension = at_start_.fields.vesicles[a].tension;
-    result.vesicles[a].material = symmetric_part(discretisation_.vesicle(a).subspace(), std::move(fields));
+    if (start.model.mobile) fields.tension = start.solved.fields.vesicles[a].tension;
+    result.vesicles[a].material = symmetric_part(start.discretisation.vesicle(a).subspace(), std::move(fields));
   }
-  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
+  for (std::size_t a = 0; a < start.state.vesicles.size(); ++a) {
     Motion& motion = result.vesicles[a];
     if (exchange.is_image(a))
       motion.material = image_of(exchange.image(a), result.vesicles[exchange.original(a)].material);
@@ -117,17 +116,17 @@ NodeSolution StepOperations::extrapolated(double time) const {
   return result;
 }
 
-void StepOperations::store_past(const std::vector<NodeSolution>& nodes, State& state) const {
+void store_past(const StepStart& start, const std::vector<NodeSolution>& nodes, State& state) {
   const NodeSolution& end = nodes.back();
   state.past_times = {};
-  if (std::ranges::any_of(at_start_.vesicles, &VesicleSolution::is_sphere)) return;
+  if (std::ranges::any_of(start.solved.vesicles, &VesicleSolution::is_sphere)) return;
   const auto n_times = std::ssize(nodes);
   Vector times(n_times);
-  times[0] = start_.time - end.time;
+  times[0] = start.state.time - end.time;
   for (Index j = 1; j < n_times; ++j) times[j] = nodes[static_cast<std::size_t>(j - 1)].time - end.time;
-  std::vector<SentPast> all(start_.vesicles.size());
-  for_each_member(partition().local_indices(all.size()), [&](std::size_t a) {
-    const SurfaceFields& from = start_.vesicles[a];
+  std::vector<SentPast> all(start.state.vesicles.size());
+  for_each_member(start.discretisation.partition().local_indices(all.size()), [&](std::size_t a) {
+    const SurfaceFields& from = start.state.vesicles[a];
     const SurfaceFields& to = end.vesicles[a].material;
     const Matrix now = columns_of<Unknowns>(to);
     Matrix past(now.rows(), n_times * now.cols());
@@ -136,11 +135,11 @@ void StepOperations::store_past(const std::vector<NodeSolution>& nodes, State& s
           columns_of<Unknowns>(j == 0 ? from : nodes[static_cast<std::size_t>(j - 1)].vesicles[a].material);
       past.middleCols(j * now.cols(), now.cols()) = then - now;
     }
-    const SphereTransform& fine = discretisation_.vesicle(a).fine_transform();
+    const SphereTransform& fine = start.discretisation.vesicle(a).fine_transform();
     all[a].past = smooth_past(times, GridMove(fine, to.position - from.position, to.position).carried(past));
   });
   // Images have that of their originals.
-  partition().gather(all, [](const SentPast&, std::size_t) { return SentPast{}; });
+  start.discretisation.partition().gather(all, [](const SentPast&, std::size_t) { return SentPast{}; });
   for (std::size_t a = 0; a < all.size(); ++a) state.vesicles[a].past = std::move(all[a].past);
   state.past_times = std::move(times);
 }

@@ -13,9 +13,7 @@ namespace vehd {
 
 void StepAttempt::add_work_of(const StepAttempt& former) {
   rejected += former.rejected;
-  evaluations += former.evaluations;
-  iterations_flow += former.iterations_flow;
-  iterations_electric += former.iterations_electric;
+  *this += former;
 }
 
 void StepAttempt::reject(const std::string& why) {
@@ -53,10 +51,9 @@ void try_to_reach(const StepGoal& goal, double dt, int order, StepOperations& ph
 
 }  // namespace
 
-StepAttempt attempt_step(const Model& model, const Discretisation& discretisation, const State& state,
-                         const SolvedFields& at_start, double dt, Instruments& instruments, const StepGoal* goal) {
-  const int order = discretisation.settings().time_order;
-  StepOperations physics(model, discretisation, state, at_start, instruments);
+StepAttempt attempt_step(const StepStart& start, double dt, Instruments& instruments, const StepGoal* goal) {
+  const int order = start.discretisation.settings().time_order;
+  StepOperations physics(start, instruments);
   StepAttempt attempt;
   attempt.dt = dt;
   try {
@@ -76,9 +73,7 @@ StepAttempt attempt_step(const Model& model, const Discretisation& discretisatio
   } catch (const ConvergenceError& error) {
     attempt.reject(error.what());
   }
-  attempt.evaluations = physics.evaluations();
-  attempt.iterations_flow = physics.iterations_flow();
-  attempt.iterations_electric = physics.iterations_electric();
+  attempt += physics.work();
   return attempt;
 }
 

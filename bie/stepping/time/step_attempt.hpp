@@ -8,8 +8,9 @@
 
 namespace vehd {
 
-/// Result of one attempt at a step, with the work of the attempts before it.
-struct StepAttempt {
+/// Result of one attempt at a step. Its work is that of all attempts at the step; once the step is accepted with the
+/// evaluation at its end.
+struct StepAttempt : StepWork {
   bool accepted = false;
   bool failed = false;  ///< rejected because a solve failed
   std::string reason;   ///< why it was rejected; empty when accepted
@@ -23,11 +24,8 @@ struct StepAttempt {
   std::vector<double> arrival_shifts;  ///< Motion::arrival_shift of each vesicle at its end, when accepted
   std::vector<State> passed;           ///< at the times asked for within the step
   double factor = 1.0;                 ///< best size over this one, see ControlledSweeps
-  int evaluations = 0;                 ///< of new shapes, in all attempts and at its end
   int rejected = 0;                    ///< attempts before it
-  int iterations_flow = 0;             ///< of all attempts; once the step is accepted with the evaluation at its end
-  int iterations_electric = 0;
-  bool at_snapshot = false;  ///< a snapshot is due at its end
+  bool at_snapshot = false;            ///< a snapshot is due at its end
 
   /// Adds the work of the attempts before this one.
   void add_work_of(const StepAttempt& former);
@@ -35,12 +33,10 @@ struct StepAttempt {
   void reject(const std::string& why);
 };
 
-/// One attempt of size dt and of the order of the settings, from a state and its solved fields.
+/// One attempt of size dt and of the order of the settings.
 /// @param goal  null without a tolerance
 /// Accuracy: order time_order in dt (tests/stepping/time/time_order_test.cpp); nothing is thrown where a solve fails:
 /// the attempt says why
-StepAttempt attempt_step(const Model& model, const Discretisation& discretisation, const State& state,
-                         const SolvedFields& at_start, double dt, Instruments& instruments,
-                         const StepGoal* goal = nullptr);
+StepAttempt attempt_step(const StepStart& start, double dt, Instruments& instruments, const StepGoal* goal = nullptr);
 
 }  // namespace vehd

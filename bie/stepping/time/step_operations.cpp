@@ -50,36 +50,30 @@ Unknowns charge_of(const Unknowns& y) { return {{}, y.transmembrane_potential, y
 
 }  // namespace
 
-StepOperations::StepOperations(const Model& model, const Discretisation& discretisation, const State& start,
-                               const SolvedFields& at_start, Instruments& instruments)
-    : model_(model), discretisation_(discretisation), start_(start), at_start_(at_start), instruments_(instruments) {
-  const int time_order = discretisation.settings().time_order;
+StepOperations::StepOperations(const StepStart& start, Instruments& instruments)
+    : start_(start), instruments_(instruments) {
+  const int time_order = start.discretisation.settings().time_order;
   // The paper's scheme leaves explicit what a change of H does to the tension that is there, which overshoots where
   // tensions are large, as near the sphere.
   const double explicit_relaxation = time_order == 1 ? relaxation_left_explicit : 0.0;
-  for (std::size_t a = 0; a < start.vesicles.size(); ++a) {
-    const FlowParameters parameters = flow_parameters(model, model.vesicles[a]);
-    const VesicleSolution& solution = at_start.vesicles[a];
+  for (std::size_t a = 0; a < start.state.vesicles.size(); ++a) {
+    const FlowParameters parameters = flow_parameters(start.model, start.model.vesicles[a]);
+    const VesicleSolution& solution = start.solved.vesicles[a];
     flow_.emplace_back(parameters, *solution.membrane,
-                       flow_options(parameters, model.mobile, discretisation.vesicle(a), time_order, *solution.membrane,
-                                    at_start.fields.vesicles[a].tension),
+                       flow_options(parameters, start.model.mobile, start.discretisation.vesicle(a), time_order,
+                                    *solution.membrane, start.solved.fields.vesicles[a].tension),
                        explicit_relaxation, solution.recycled.flow);
   }
 }
 
-Rate StepOperations::rate() const { return rate_of(at_start_); }
-
 template <typename Body>
 void StepOperations::for_each_node(std::size_t count, const Body& body) {
-  std::vector<Iterations> of_each(count);
+  std::vector<StepWork> of_each(count);
   const auto add_up = [&] {
-    for (const Iterations& of_one : of_each) {
-      iterations_.flow += of_one.flow;
-      iterations_.electric += of_one.electric;
-    }
+    for (const StepWork& of_one : of_each) work_ += of_one;
   };
   try {
-    for_each_side_by_side(static_cast<Index>(count), discretisation_.leaves_threads_idle(), instruments_,
+    for_each_side_by_side(static_cast<Index>(count), start_.discretisation.leaves_threads_idle(), instruments_,
                           [&](Index i, Instruments& instruments) {
                             const auto m = static_cast<std::size_t>(i);
                             NodeWork work{instruments, of_each[m]};
@@ -94,16 +88,16 @@ void StepOperations::for_each_node(std::size_t count, const Body& body) {
 
 std::vector<Rate> StepOperations::rates(std::span<const NodeSolution> nodes) {
   std::vector<Rate> result(nodes.size());
-  evaluations_ += static_cast<int>(nodes.size());
   for_each_node(nodes.size(), [&](std::size_t m, NodeWork& work) { result[m] = rate(nodes[m], work); });
   return result;
 }
 
 Rate StepOperations::rate(const NodeSolution& node, NodeWork& work) const {
-  const SolvedFields solved = solve_fields(model_, discretisation_, state_with(&Motion::material, node),
-                                           work.instruments, &at_start_, Limit::before);
-  work.iterations.flow += solved.iterations_flow;
-  work.iterations.electric += solved.iterations_electric;
+  ++work.counted.evaluations;
+  const SolvedFields solved = solve_fields(start_.model, start_.discretisation, material_state(start_, node),
+                                           work.instruments, &start_.solved, Limit::before);
+  work.counted.iterations_flow += solved.iterations_flow;
+  work.counted.iterations_electric += solved.iterations_electric;
   return rate_of(solved);
 }
 
@@ -123,28 +117,28 @@ std::vector<NodeSolution> StepOperations::implicit_solves(const std::vector<Impl
 
 /// Makes the systems of this size, which threads then only look up.
 void StepOperations::prepare(double dt) {
-  if (!model_.mobile) return;
+  if (!start_.model.mobile) return;
   for (const std::size_t a : partition().local_indices(flow_.size())) {
-    if (!at_start_.vesicles[a].is_sphere) static_cast<void>(flow_[a].of(dt));
+    if (!start_.solved.vesicles[a].is_sphere) static_cast<void>(flow_[a].of(dt));
   }
 }
 
 NodeSolution StepOperations::first_order_step(const FirstOrderStep& step, NodeWork& work) {
   const double dt = step.dt;
-  NodeSolution result{start_.time + dt, {}};
+  NodeSolution result{start_.state.time + dt, {}};
   std::vector<Unknowns> charges;
-  for (const VesicleState& vesicle : start_.vesicles) charges.push_back(charge_of(vesicle));
+  for (const VesicleState& vesicle : start_.state.vesicles) charges.push_back(charge_of(vesicle));
   charges = charged(charges, nullptr, result.time, dt, work);
   std::vector<MotionStart> starts;
-  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
-    SurfaceFields fields = start_.vesicles[a];
+  for (std::size_t a = 0; a < start_.state.vesicles.size(); ++a) {
+    SurfaceFields fields = start_.state.vesicles[a];
     take(std::move(charges[a]), result.time, a, fields);
-    const VesicleFields& instantaneous = at_start_.fields.vesicles[a];
-    if (model_.mobile) fields.tension = instantaneous.tension;
+    const VesicleFields& instantaneous = start_.solved.fields.vesicles[a];
+    if (start_.model.mobile) fields.tension = instantaneous.tension;
     starts.push_back({std::move(fields), instantaneous.velocity});
   }
   const RigidMotion rigid = [&](std::size_t a, const Membrane& sphere) {
-    return motion_of_velocity(sphere, at_start_.fields.vesicles[a].velocity, dt);
+    return motion_of_velocity(sphere, start_.solved.fields.vesicles[a].velocity, dt);
   };
   result.vesicles = motions(starts, rigid, dt, step.end, work);
   return result;
@@ -159,16 +153,16 @@ NodeSolution StepOperations::implicit_solve(const ImplicitSolve& solve, NodeWork
   for (const Motion& motion : y.vesicles) charges.push_back(charge_of(motion.material));
   charges = charged(charges, &r, y.time, dt, work);
   std::vector<MotionStart> starts;
-  for (std::size_t a = 0; a < start_.vesicles.size(); ++a) {
+  for (std::size_t a = 0; a < start_.state.vesicles.size(); ++a) {
     SurfaceFields fields = y.vesicles[a].material;
-    fields.area_strain = start_.vesicles[a].area_strain;
+    fields.area_strain = start_.state.vesicles[a].area_strain;
     take(std::move(charges[a]), result.time, a, fields);
     starts.push_back({std::move(fields), r[a].position / dt});
   }
   // A rigid motion has no stiffness, so nothing of it is implicit.
   const RigidMotion rigid = [&](std::size_t a, const Membrane& sphere) {
     return motion_of_displacement(sphere,
-                                  y.vesicles[a].material.position + r[a].position - start_.vesicles[a].position);
+                                  y.vesicles[a].material.position + r[a].position - start_.state.vesicles[a].position);
   };
   result.vesicles = motions(starts, rigid, dt, solve.end, work);
   return result;
@@ -177,28 +171,30 @@ NodeSolution StepOperations::implicit_solve(const ImplicitSolve& solve, NodeWork
 std::vector<Unknowns> StepOperations::charged(const std::vector<Unknowns>& from, const std::vector<Unknowns>* residual,
                                               double time, double dt, NodeWork& work) const {
   std::vector<Unknowns> reached = from;
-  if (!model_.electric) return reached;
+  if (!start_.model.electric) return reached;
   const auto timer = work.instruments.time("electric");
   if (!charges()) {
     // Pores close under the V_m that there is, which does not change.
     for (std::size_t a = 0; a < from.size(); ++a) {
-      if (!model_.vesicles[a].reaction) continue;
-      reached[a].poration = react(*model_.vesicles[a].reaction, at_start_.vesicles[a].membrane->fine, dt, from[a],
-                                  residual == nullptr ? nullptr : &(*residual)[a], from[a].transmembrane_potential);
+      if (!start_.model.vesicles[a].reaction) continue;
+      reached[a].poration =
+          react(*start_.model.vesicles[a].reaction, start_.solved.vesicles[a].membrane->fine, dt, from[a],
+                residual == nullptr ? nullptr : &(*residual)[a], from[a].transmembrane_potential);
     }
     return reached;
   }
   std::vector<ChargingMembrane> membranes;
   for (std::size_t a = 0; a < from.size(); ++a) {
-    const VesicleModel& vesicle = model_.vesicles[a];
+    const VesicleModel& vesicle = start_.model.vesicles[a];
     membranes.push_back(
-        {{electric_parameters(model_, vesicle).at(time, Limit::before), *at_start_.vesicles[a].membrane},
+        {{electric_parameters(start_.model, vesicle).at(time, Limit::before), *start_.solved.vesicles[a].membrane},
          vesicle.charging,
          vesicle.reaction.get()});
   }
-  const SolveReport report = charge_membranes(membranes, *at_start_.interaction, dt,
-                                              discretisation_.settings().electric_tolerance, from, residual, reached);
-  work.iterations.electric += report.iterations;
+  const SolveReport report =
+      charge_membranes(membranes, *start_.solved.interaction, dt, start_.discretisation.settings().electric_tolerance,
+                       from, residual, reached);
+  work.counted.iterations_electric += report.iterations;
   require_converged(report, "membrane charging, Eq. (30)");
   return reached;
 }
@@ -215,37 +211,20 @@ void StepOperations::take(Unknowns charged, double time, std::size_t a, SurfaceF
 
 /// A potential this small does nothing any more, and without it the electric part becomes inactive.
 void StepOperations::forget_decayed(double time, std::size_t a, Vector& potential) const {
-  if (model_.vesicles[a].pump) return;
-  const double scale = model_.electric->field.norm() * at_start_.vesicles[a].membrane->radius;
-  if (model_.electric->waveform.is_quiet(time) && potential.norm() < decayed_potential * scale) potential.setZero();
-}
-
-State StepOperations::state_with(SurfaceFields Motion::*fields, const NodeSolution& node) const {
-  State state = without_past(start_);
-  state.time = node.time;
-  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
-    VesicleState& vesicle = state.vesicles[a];
-    static_cast<SurfaceFields&>(vesicle) =
-        symmetric_part(discretisation_.vesicle(a).subspace(), node.vesicles[a].*fields);
-    vesicle.recycled = at_start_.vesicles[a].recycled;
-  }
-  return with_images(discretisation_.symmetry().exchange, std::move(state));
-}
-
-State StepOperations::passed_state(const NodeSolution& node) const {
-  State state = state_with(&Motion::arrived, node);
-  ++state.step;
-  return state;
+  if (start_.model.vesicles[a].pump) return;
+  const double scale = start_.model.electric->field.norm() * start_.solved.vesicles[a].membrane->radius;
+  if (start_.model.electric->waveform.is_quiet(time) && potential.norm() < decayed_potential * scale)
+    potential.setZero();
 }
 
 State StepOperations::end_state(const NodeSolution& node) const {
-  State state = passed_state(node);
+  State state = state_at(start_, node);
   std::vector<SentScalars> flow(state.vesicles.size());
   for (const std::size_t a : partition().local_indices(flow.size())) flow[a] = SentScalars{flow_[a].recycled()};
   // What is known of images serves nobody.
   partition().gather(flow, [](const SentScalars&, std::size_t) { return SentScalars{}; });
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
-    state.vesicles[a].recycled = after_step(at_start_.vesicles[a].recycled, flow[a].known, iterations_.flow);
+    state.vesicles[a].recycled = after_step(start_.solved.vesicles[a].recycled, flow[a].known, work_.iterations_flow);
   }
   return state;
 }
@@ -286,7 +265,7 @@ std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& star
       // Which vesicle is the first without a motion all ranks have to say.
     }
     partition().gather(all, [this](const CountedMotion& of_original, std::size_t a) -> CountedMotion {
-      const ImageOfFields& image = discretisation_.symmetry().exchange.image(a);
+      const ImageOfFields& image = start_.discretisation.symmetry().exchange.image(a);
       Motion motion = of_original.motion;
       for (SurfaceFields* fields : {&motion.material, &motion.arrived}) *fields = image_of(image, *fields);
       return {std::move(motion)};
@@ -295,7 +274,7 @@ std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& star
   std::vector<Motion> result;
   for (CountedMotion& of_one : all) {
     // Those of solves that fail count all the same.
-    work.iterations.flow += of_one.iterations;
+    work.counted.iterations_flow += of_one.iterations;
     if (!of_one.failure.empty()) throw ConvergenceError(of_one.failure);
     result.push_back(std::move(of_one.motion));
   }
@@ -304,8 +283,8 @@ std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& star
 
 Motion StepOperations::motion(std::size_t a, const MotionStart& start, const RigidMotion& rigid, double dt, NodeEnd end,
                               Instruments& instruments, int& iterations) {
-  const VesicleSolution& solution = at_start_.vesicles[a];
-  if (!model_.mobile) {
+  const VesicleSolution& solution = start_.solved.vesicles[a];
+  if (!start_.model.mobile) {
     Motion resting;
     resting.material = resting.arrived = start.fields;
     return resting;
@@ -318,20 +297,21 @@ Motion StepOperations::motion(std::size_t a, const MotionStart& start, const Rig
     result.material = moved_sphere(start.fields, sphere, moved);
     result.arrived = end == NodeEnd::material
                          ? result.material
-                         : at_translated_nodes(start_.vesicles[a].position, sphere, moved, result.material);
+                         : at_translated_nodes(start_.state.vesicles[a].position, sphere, moved, result.material);
     return result;
   }
-  const FlowParameters parameters = flow_parameters(model_, model_.vesicles[a]);
-  return constrained_motion({parameters, discretisation_.settings(), start_.vesicles[a], *solution.membrane}, start, dt,
-                            flow_[a].of(dt), arrival(a, end, instruments), iterations);
+  const FlowParameters parameters = flow_parameters(start_.model, start_.model.vesicles[a]);
+  return constrained_motion(
+      {parameters, start_.discretisation.settings(), start_.state.vesicles[a], *solution.membrane}, start, dt,
+      flow_[a].of(dt), arrival(a, end, instruments), iterations);
 }
 
 Arrival StepOperations::arrival(std::size_t a, NodeEnd end, Instruments& instruments) const {
   if (end == NodeEnd::material) return [](const SurfaceFields& material) { return material; };
   return [this, a, &instruments](const SurfaceFields& material) {
     const auto timer = instruments.time("remap");
-    return remap(discretisation_.vesicle(a).fine_transform(), material.position - start_.vesicles[a].position,
-                 material);
+    return remap(start_.discretisation.vesicle(a).fine_transform(),
+                 material.position - start_.state.vesicles[a].position, material);
   };
 }
 

@@ -110,4 +110,42 @@ BOOST_AUTO_TEST_CASE(the_centroid_moves_as_the_body_does) {
   }
 }
 
+// Points of an ellipsoid that run on ellipses about one of its axes, v = ω (−(a/b) y, (b/a) x, 0) along its own axes,
+// leave the shape at rest and come round ω/2π times; a rotation of the body adds to it.
+BOOST_AUTO_TEST_CASE(an_ellipsoid_tumbles_and_its_membrane_treads) {
+  const Surface s = leaning_ellipsoid();
+  const VolumeMoments moments = volume_moments(s);
+  const double circulation = -0.6, ratio = kAxes[0] / kAxes[1];
+  Matrix3 treading = Matrix3::Zero();
+  treading(0, 1) = -circulation * ratio;
+  treading(1, 0) = circulation / ratio;
+  treading = kTurn * treading * kTurn.transpose();
+  const Vector3 axis = kTurn.col(2);
+  for (const double rotation : {0.0, 0.25, -2.0}) {
+    Matrix3 spin;
+    spin << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
+    const Matrix3 gradient = treading + rotation * spin;
+    const Matrix velocity = (s.position * gradient.transpose()).rowwise() + Eigen::RowVector3d(3.0, 1.0, -7.0);
+    for (const double side : {2.0, -1.0}) {
+      const Turning turns = turning(s, moments, velocity, side * axis);
+      const double sign = side > 0.0 ? 1.0 : -1.0;
+      BOOST_TEST(std::abs(2.0 * std::numbers::pi * turns.shape - sign * rotation) < 1e-10);
+      BOOST_TEST(std::abs(2.0 * std::numbers::pi * turns.membrane - sign * circulation) < 1e-10);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_round_shape_does_not_tumble_and_a_deforming_one_does_not_tread) {
+  const SphereTransform fine(kOrder, make_grid(2 * kOrder));
+  const Surface s = make_surface(fine, ellipsoid(kOrder, {2.0, 2.0, 2.0}));
+  Matrix3 gradient = Matrix3::Zero();
+  gradient(0, 2) = 1.0;
+  gradient(2, 0) = -1.0;
+  const auto turns = [&] { return turning(s, volume_moments(s), s.position * gradient.transpose(), Vector3::UnitY()); };
+  BOOST_TEST(turns().shape == 0.0);
+  BOOST_TEST(std::abs(turns().membrane - 0.5 / std::numbers::pi) < 1e-12);
+  gradient(2, 0) = 0.5;
+  BOOST_TEST(turns().membrane == 0.0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

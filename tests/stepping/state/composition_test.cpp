@@ -40,7 +40,7 @@ CountedRun counted_run(const Model& model, const Matrix& position, double dt, do
   while (result.state.time < end_time - 1e-9) {
     const double target = std::min(end_time, next_discontinuity(model, result.state.time).value_or(end_time));
     const double limit = std::min(dt, target - result.state.time);
-    StepAttempt advanced = attempt_step(model, discretisation, result.state, evaluation, limit, instruments);
+    StepAttempt advanced = attempt_step({model, discretisation, result.state, evaluation}, limit, instruments);
     if (!advanced.accepted) throw std::runtime_error(advanced.reason);
     result.state = std::move(advanced.state);
     evaluation = evaluate(model, discretisation, result.state, instruments, &evaluation);

@@ -31,7 +31,7 @@ Steps steps_of(const Model& model, const Matrix& position, double dt, int n) {
   Steps steps{start(model, discretisation, position, dt), {}};
   Evaluation evaluation = evaluate(model, discretisation, steps.end, instruments);
   for (int i = 0; i < n; ++i) {
-    const StepAttempt next = attempt_step(model, discretisation, steps.end, evaluation, dt, instruments);
+    const StepAttempt next = attempt_step({model, discretisation, steps.end, evaluation}, dt, instruments);
     BOOST_TEST_REQUIRE(next.accepted, next.reason);
     steps.end = next.state;
     evaluation = evaluate(model, discretisation, steps.end, instruments);

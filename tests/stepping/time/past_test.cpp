@@ -28,7 +28,7 @@ class ConvergedStep {
  public:
   ConvergedStep(const Model& model, const Discretisation& discretisation, const State& state, double dt)
       : at_start_(solve_fields(model, discretisation, state, instruments_)),
-        physics_(model, discretisation, state, at_start_, instruments_),
+        physics_({model, discretisation, state, at_start_}, instruments_),
         rule_(time_rule(highest_time_order)),
         y_(physics_, rule_, dt, NodeEnd::material) {
     constexpr int kSweeps = 7;
@@ -41,18 +41,18 @@ class ConvergedStep {
   /// At its end, with what it leaves to the next step.
   [[nodiscard]] State end() const {
     State state = physics_.end_state(y_.node(y_.last()));
-    physics_.store_past(y_.nodes(), state);
+    store_past(physics_.start(), y_.nodes(), state);
     return state;
   }
   /// Largest error of what the past of the start tells of the nodes: of x over the radius and V_m over its size.
   [[nodiscard]] double error_of_past() const {
     double largest = 0.0;
     for (const NodeSolution& node : y_.nodes()) {
-      largest = std::max(largest, physics_.difference(physics_.extrapolated(node.time), node));
+      largest = std::max(largest, difference(physics_.start(), extrapolated(physics_.start(), node.time), node));
     }
     return largest;
   }
-  [[nodiscard]] bool can_extrapolate(double dt) const { return physics_.can_extrapolate(dt); }
+  [[nodiscard]] bool can_extrapolate(double dt) const { return vehd::can_extrapolate(physics_.start().state, dt); }
 
  private:
   Instruments instruments_;

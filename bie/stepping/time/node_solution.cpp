@@ -1,9 +1,11 @@
+#include "bie/stepping/time/node_solution.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/space/resolution.hpp"
-#include "bie/stepping/time/step_operations.hpp"
+#include "bie/stepping/state/symmetry.hpp"
 
 namespace vehd {
 
@@ -20,7 +22,29 @@ double largest_value(const SphereTransform& fine, const Matrix& coefficients) {
   return fine.synthesize(coefficients).cwiseAbs().maxCoeff();
 }
 
+State state_with(const StepStart& start, SurfaceFields Motion::*fields, const NodeSolution& node) {
+  State state = without_past(start.state);
+  state.time = node.time;
+  for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
+    VesicleState& vesicle = state.vesicles[a];
+    static_cast<SurfaceFields&>(vesicle) =
+        symmetric_part(start.discretisation.vesicle(a).subspace(), node.vesicles[a].*fields);
+    vesicle.recycled = start.solved.vesicles[a].recycled;
+  }
+  return with_images(start.discretisation.symmetry().exchange, std::move(state));
+}
+
 }  // namespace
+
+State state_at(const StepStart& start, const NodeSolution& node) {
+  State state = state_with(start, &Motion::arrived, node);
+  ++state.step;
+  return state;
+}
+
+State material_state(const StepStart& start, const NodeSolution& node) {
+  return state_with(start, &Motion::material, node);
+}
 
 Rate rate_of(const SolvedFields& solved) {
   Rate rate;
@@ -58,35 +82,24 @@ InstantaneousDifference instantaneous_difference(const Model& model, const Solve
   return largest;
 }
 
-double StepOperations::potential_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
+namespace {
+
+double potential_difference(const StepStart& start, std::size_t a, const SurfaceFields& x, const SurfaceFields& y) {
   if (y.transmembrane_potential.size() == 0) return 0.0;
-  const SphereTransform& fine = discretisation_.vesicle(a).fine_transform();
-  const double size = fine.synthesize(y.transmembrane_potential).cwiseAbs().maxCoeff();
-  const Matrix change = fine.synthesize(y.transmembrane_potential - x.transmembrane_potential);
-  return change.cwiseAbs().maxCoeff() / potential_scale(*model_.electric, at_start_.vesicles[a].membrane->radius, size);
+  const SphereTransform& fine = start.discretisation.vesicle(a).fine_transform();
+  const double size = largest_value(fine, y.transmembrane_potential);
+  return largest_value(fine, y.transmembrane_potential - x.transmembrane_potential) /
+         potential_scale(*start.model.electric, start.solved.vesicles[a].membrane->radius, size);
 }
 
 /// The state is a pure number that becomes of the order of one, or a logarithm.
-double StepOperations::poration_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
+double poration_difference(const StepStart& start, std::size_t a, const SurfaceFields& x, const SurfaceFields& y) {
   if (y.poration.size() == 0) return 0.0;
-  return discretisation_.vesicle(a).fine_transform().synthesize(y.poration - x.poration).cwiseAbs().maxCoeff();
+  return largest_value(start.discretisation.vesicle(a).fine_transform(), y.poration - x.poration);
 }
 
-double StepOperations::difference(const NodeSolution& a, const NodeSolution& b) const {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
-    const SphereTransform& fine = discretisation_.vesicle(i).fine_transform();
-    const SurfaceFields& x = a.vesicles[i].material;
-    const SurfaceFields& y = b.vesicles[i].material;
-    const double moved = fine.synthesize(y.position - x.position).rowwise().norm().maxCoeff();
-    largest = std::max({largest, moved / at_start_.vesicles[i].membrane->radius, potential_difference(i, x, y),
-                        poration_difference(i, x, y)});
-  }
-  return largest;
-}
-
-double StepOperations::normal_difference(std::size_t a, const SurfaceFields& x, const SurfaceFields& y) const {
-  const SphereTransform& fine = discretisation_.vesicle(a).fine_transform();
+double normal_difference(const StepStart& start, std::size_t a, const SurfaceFields& x, const SurfaceFields& y) {
+  const SphereTransform& fine = start.discretisation.vesicle(a).fine_transform();
   const SphereDerivatives there = fine.synthesize_gradient(y.position);
   const Matrix change = fine.synthesize(y.position - x.position);
   double largest = 0.0;
@@ -94,16 +107,32 @@ double StepOperations::normal_difference(std::size_t a, const SurfaceFields& x, 
     const Vector3 across = Vector3(there.d1.row(i)).cross(Vector3(there.d2.row(i)));
     largest = std::max(largest, std::abs(across.dot(Vector3(change.row(i)))) / across.norm());
   }
-  return largest / at_start_.vesicles[a].membrane->radius;
+  return largest / start.solved.vesicles[a].membrane->radius;
 }
 
-VisibleDifference StepOperations::visible_difference(const NodeSolution& a, const NodeSolution& b) const {
-  VisibleDifference largest;
-  for (std::size_t i = 0; i < start_.vesicles.size(); ++i) {
+}  // namespace
+
+double difference(const StepStart& start, const NodeSolution& a, const NodeSolution& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.vesicles.size(); ++i) {
     const SurfaceFields& x = a.vesicles[i].material;
     const SurfaceFields& y = b.vesicles[i].material;
-    largest.shape = std::max(largest.shape, normal_difference(i, x, y));
-    largest.potential = std::max({largest.potential, potential_difference(i, x, y), poration_difference(i, x, y)});
+    const SphereTransform& fine = start.discretisation.vesicle(i).fine_transform();
+    const double moved = fine.synthesize(y.position - x.position).rowwise().norm().maxCoeff();
+    largest = std::max({largest, moved / start.solved.vesicles[i].membrane->radius,
+                        potential_difference(start, i, x, y), poration_difference(start, i, x, y)});
+  }
+  return largest;
+}
+
+VisibleDifference visible_difference(const StepStart& start, const NodeSolution& a, const NodeSolution& b) {
+  VisibleDifference largest;
+  for (std::size_t i = 0; i < a.vesicles.size(); ++i) {
+    const SurfaceFields& x = a.vesicles[i].material;
+    const SurfaceFields& y = b.vesicles[i].material;
+    largest.shape = std::max(largest.shape, normal_difference(start, i, x, y));
+    largest.potential =
+        std::max({largest.potential, potential_difference(start, i, x, y), poration_difference(start, i, x, y)});
   }
   return largest;
 }
