@@ -2,11 +2,14 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bie/files/run_reader.hpp"
 #include "bie/runs/history.hpp"
 #include "bie/runs/run_loop.hpp"
+#include "bie/runs/summary.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/stepping/time/time_rule.hpp"
 #include "bie/support/interruption.hpp"
@@ -160,6 +163,42 @@ BOOST_AUTO_TEST_CASE(a_run_until_rest_waits_for_its_waveforms) {
   const Directory folder;
   BOOST_TEST(vehd::simulate({scene, folder.paths, {}}, interruption).completed);
   BOOST_TEST(vehd::HistoryTable(folder.paths.history()).column("time").back() >= 1.0);
+}
+
+namespace {
+
+/// The history of an elongated vesicle in shear, viscous inside.
+vehd::HistoryTable sheared(const Directory& directory, double viscosity_ratio) {
+  const vehd::Scene scene = vehd::parse_scene(
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1.6, 1.0, 1.0]\n[membrane]\nbending_modulus = 0.1\n"
+      "[fluid]\nviscosity_ratio = " +
+          std::to_string(viscosity_ratio) +
+          "\n[flow]\nkind = \"shear\"\nrate = 1.0\n[numerics]\ndegree = 8\ndt = 0.1\nend_time = 24.0\n"
+          "[output]\nevery = 24.0\n",
+      "scene.toml", ".");
+  vehd::Interruption interruption;
+  BOOST_TEST(vehd::simulate({scene, directory.paths, {}}, interruption).completed);
+  return vehd::HistoryTable(directory.paths.history());
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_viscous_vesicle_tumbles_where_another_one_tank_treads) {
+  for (const auto& [ratio, regime] : {std::pair{1.0, "tank-treading"}, {14.0, "tumbling"}}) {
+    const Directory directory;
+    const vehd::HistoryTable history = sheared(directory, ratio);
+    BOOST_TEST(vehd::regime_of(history, vehd::OutputUnits()) == regime);
+    // The shape turns from z to x, against the inclination, which is the same after half a revolution.
+    const auto& times = history.column("time");
+    const auto& tumbling = history.column("tumbling_frequency");
+    const auto& inclination = history.column("inclination_deg");
+    double turned = 0.0;
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      turned += 180.0 * (times[i] - times[i - 1]) * (tumbling[i] + tumbling[i - 1]);
+    }
+    const double left = inclination.back() - inclination.front() + turned;
+    BOOST_TEST(std::abs(std::remainder(left, 180.0)) < 1.0);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
