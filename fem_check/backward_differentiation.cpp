@@ -5,9 +5,9 @@
 namespace vehd::fem_check {
 namespace {
 
-constexpr double implicit_share = 2.0 / 3.0;  ///< of a step, in backward differentiation of order 2
+constexpr double implicit_share = 2.0 / 3.0;  ///< fraction of a step, for order 2
 
-/// The stages y_1 = v + γΔt k_1 and y_2 = v + (1 − 2γ)Δt k_1 + γΔt k_2 with the weights ½, ½ have order 2 for every γ.
+/// Stages y_1 = v + γΔt k_1 and y_2 = v + (1 − 2γ)Δt k_1 + γΔt k_2 with weights ½, ½ give order 2 for every γ.
 Vector first_step(const TimeLaw& law, const Vector& start, const Vector& drift, double begin, double dt) {
   const double size = implicit_share * dt, between = (1.0 - 2.0 * implicit_share) * dt;
   const auto rate = [&](const Vector& from, double time) {

@@ -33,7 +33,7 @@ Vectors curvature_functional(const SurfaceElements& surface, const Vectors& posi
   Vectors result = Vectors::Zero(3, positions.cols());
   for (int f = 0; f < surface.nodes().n_faces(); ++f) {
     const FacePatch patch = surface.patch(f, positions);
-    // ∇_γ x is the projection on the tangent plane: of ∇_γ w = tᵃ ∂w/∂s_a all is left.
+    // ∇_γ x is the projection onto the tangent plane, which leaves ∇_γ w = tᵃ ∂w/∂s_a unchanged.
     for (int a = 0; a < 2; ++a) {
       add_to_nodes(-patch.dual[a] * patch.weight.asDiagonal() * surface.shape().derivative[a],
                    surface.nodes().of_face(f), result);
@@ -74,7 +74,7 @@ double BendingElements::energy(const PerVesicle<BendingEnergy>& energy, const Ve
 Vectors BendingElements::force_functional(const PerVesicle<BendingEnergy>& energy, const Vectors& positions) const {
   const SurfaceProjection projection(surface_, positions, surface_.nodes());
   const Vectors h = projection.solve(curvature_functional(surface_, positions));
-  // The multiplier of the equation of h: with it, h may be held while the surface is varied.
+  // Multiplier of the equation of h: with it, h can be kept fixed in the variation of the surface.
   Vector modulus(positions.cols()), modulus_by_curvature(positions.cols());
   for (int f = 0; f < surface_.nodes().n_faces(); ++f) {
     const auto [kappa, c] = energy[surface_.nodes().vesicle(f)];

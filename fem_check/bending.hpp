@@ -14,23 +14,23 @@ struct BendingEnergy {
   double spontaneous_curvature = 0.0;  ///< c, as H; the usual C₀ is −2c
 };
 
-/// Bending of a surface of isoparametric elements, with nothing but the positions of its nodes. The curvature vector
+/// Bending of a surface of isoparametric elements, computed from the positions of its nodes only. The curvature vector
 /// h = 2H n is a nodal field of the same degree,
 ///
 ///   ∫ h·w dA = −∫ ∇_γ x:∇_γ w dA for every nodal w,
 ///
-/// and the energy is E_h = κ_B/4 ∫ |h − 2c n|² dA. The force is minus its derivative in the positions, exactly that of
-/// the discrete energy: with y = κ_B/2 (h − 2c P n), P the L2 projection on nodal fields,
+/// and the energy is E_h = κ_B/4 ∫ |h − 2c n|² dA. The force is minus the exact derivative of this discrete energy with
+/// respect to the positions: with y = κ_B/2 (h − 2c P n), P the L2 projection onto nodal fields,
 ///
 ///   δE_h[w] = ∫ [(κ_B/4 |h − 2cn|² − h·y − ∇_γ·y) ∇_γ·w + κ_B c h·(∇_γ w)ᵀn + tᵇ·∂_a w tᵃ·∂_b y
 ///                − gᵃᵇ (n·∂_a w)(n·∂_b y)] dA.
 ///
-/// Accuracy: derivative of the energy to rounding; rates of convergence and the forces of ellipsoids in
+/// Accuracy: derivative of the energy to rounding; convergence rates and forces on ellipsoids:
 /// tests/fem_check/bending_test.cpp
 /// Source: Dziuk 2008; Barrett, Garcke and Nürnberg 2008; docs/weak_forms.md
 class BendingElements {
  public:
-  /// @param degree  of the surface and of h, at least 2: with degree 1, h does not converge
+  /// @param degree  of the surface and of h, at least 2: h of degree 1 does not converge
   /// @throws std::invalid_argument for a lower degree or a mesh of tetrahedra
   BendingElements(const meshes::VolumeMesh& mesh, int degree);
 
@@ -45,26 +45,26 @@ class BendingElements {
   SurfaceElements surface_;
 };
 
-/// A functional on nodal fields of one degree, on those of a lower degree on the same faces, which are among them.
+/// Restricts a functional on nodal fields of one degree to those of a lower degree on the same faces, a subspace.
 Vectors restricted(const Vectors& functional, const FaceNodes& from, const FaceNodes& to);
 
-/// f_b of the finite elements on the mesh of a discretisation: −δE_b[w], found once, as fields of several kinds.
-/// Accuracy: of a 2:1 prolate to 1e-3 (tests/fem_check/bending_test.cpp)
+/// f_b of the finite elements on the mesh of a discretisation: −δE_b[w], computed once, in several spaces.
+/// Accuracy: 1e-3 on a 2:1 prolate (tests/fem_check/bending_test.cpp)
 class BendingForce {
  public:
-  /// @param degree  of the surface on which the energy is taken
+  /// @param degree  of the surface on which the energy is computed
   /// @throws std::invalid_argument for a degree below 2
   BendingForce(const Discretisation& discretisation, const PerVesicle<BendingEnergy>& energy, int degree);
 
-  /// The nodal field of this degree with ∫ f_b·w dA = −δE_b[w] for every nodal w of that degree. It holds more of a
-  /// rough force than on_trace(), whose degree is that of the flow.
+  /// Nodal field of this degree with ∫ f_b·w dA = −δE_b[w] for every nodal w of the degree. Represents a rough force
+  /// better than on_trace(), whose degree is that of the flow.
   /// @throws std::invalid_argument for a degree above that of the surface
   [[nodiscard]] VectorOnSurface field(int degree) const;
-  /// As a flow takes it: the function of the trace space of the discretisation with ∫ f_b·w dA = −δE_b[w] for every
-  /// trace function w, for FlowProblem::force.
+  /// Function in the trace space of the discretisation with ∫ f_b·w dA = −δE_b[w] for every trace function w; for
+  /// FlowProblem::force.
   /// @throws std::invalid_argument if the degree of the discretisation is above that of the surface
   [[nodiscard]] VectorOnSurface on_trace() const;
-  /// Of the surface, three for each node.
+  /// Unknowns of the surface, three for each node.
   [[nodiscard]] long n_unknowns() const { return functional_.size(); }
 
  private:
@@ -73,7 +73,7 @@ class BendingForce {
   Vectors functional_;
 };
 
-/// BendingForce::on_trace() of a surface of this degree.
+/// BendingForce::on_trace() with a surface of this degree.
 VectorOnSurface bending_force(const Discretisation& discretisation, const BendingEnergy& energy, int degree);
 
 }  // namespace vehd::fem_check

@@ -14,7 +14,7 @@ using Map = CellKernel::Map;
 using Tables = CellKernel::Tables;
 using Functions = CellKernel::Functions;
 
-/// Derivatives change their sign where the edge is mirrored.
+/// Symmetry of a map under reflection of the edge: derivatives change sign.
 enum class Mirrored { same, opposite };
 
 /// Σ_i m(o, i) in(i) along one direction of in[n_outer][n_in][stride].
@@ -49,7 +49,7 @@ void sum_along(const Map& map, const Lanes* in, Lanes* out) {
         for (int i = 1; i < half; ++i) even += of_sums[i] * sums[i];
 #pragma GCC unroll 16
         for (int i = 1; i < pairs; ++i) odd += of_differences[i] * differences[i];
-        // In the middle of the edge one of the two is zero.
+        // At the middle of the edge one of the two vanishes.
         if (middle) {
           put(y[row * stride], mirrored == Mirrored::same ? even : odd);
         } else {
@@ -61,7 +61,7 @@ void sum_along(const Map& map, const Lanes* in, Lanes* out) {
   }
 }
 
-/// Of n nodes and q points per direction.
+/// Sum factorisation with n nodes and q points per direction.
 template <int n, int q>
 struct Sums {
   static constexpr int n_points = q * q * q;
@@ -108,7 +108,7 @@ Functions functions_of(int of_degree, int n_points) {
   }
 }
 
-/// The map with these entries, m(last − o, last − i) = ± m(o, i).
+/// Map with the entries m, which satisfy m(last − o, last − i) = ± m(o, i).
 Map mirrored_map(const Eigen::MatrixXd& m) {
   const Eigen::Index n = m.cols(), half = (n + 1) / 2, rows = (m.rows() + 1) / 2;
   Map map;
@@ -128,7 +128,7 @@ Map mirrored_map(const Eigen::MatrixXd& m) {
 Tables tables_of(int degree, int n_points) {
   const std::vector<dealii::Point<1>> points = dealii::QGauss<1>(static_cast<unsigned>(n_points)).get_points();
   const auto nodal = edge_polynomials(static_cast<unsigned>(degree));
-  // Of degree n_points − 1, 1 at one of the points and 0 at all others.
+  // Lagrange polynomials of the Gauss points, of degree n_points − 1.
   const auto at_points = dealii::Polynomials::generate_complete_Lagrange_basis(points);
   Eigen::MatrixXd value(n_points, degree + 1), slope(n_points, n_points);
   std::vector<double> derivatives(2);

@@ -1,7 +1,7 @@
 #include "fem_check/cell_loops.hpp"
 
 #include <deal.II/matrix_free/evaluation_template_face_factory.templates.h>
-// The next one has the same include guard.
+// The next header has the same include guard.
 #undef dealii_matrix_free_evaluation_template_factory_templates_h
 #include <deal.II/matrix_free/evaluation_template_factory.templates.h>
 #include <deal.II/matrix_free/mapping_info.templates.h>
@@ -9,14 +9,14 @@
 #include <deal.II/matrix_free/matrix_free.templates.h>
 #include <deal.II/matrix_free/shape_info.templates.h>
 
-// The compiled library holds these loops for one cell at a time only.
+// The compiled library contains these loops for single cells only.
 template class dealii::MatrixFree<3, double, vehd::fem_check::Lanes>;
 
 namespace vehd::fem_check {
 
 namespace {
 
-/// Sums over the first index of `data` with every row of `matrix`; the new index becomes the last one.
+/// Contracts the first index of `data` with every row of `matrix`; the new index becomes the last one.
 dealii::AlignedVector<Lanes> contract_first(const Eigen::MatrixXd& matrix, const dealii::AlignedVector<Lanes>& data) {
   const auto n_in = static_cast<unsigned>(matrix.cols());
   const auto n_out = static_cast<unsigned>(matrix.rows());
@@ -86,7 +86,7 @@ dealii::AlignedVector<Lanes> CellDiagonal::of_mass(const dealii::AlignedVector<L
 
 dealii::AlignedVector<Lanes> CellDiagonal::of_stiffness(
     const std::array<dealii::AlignedVector<Lanes>, 6>& tensor) const {
-  // Number of derivatives in each direction, for each entry; both off-diagonal entries count.
+  // Number of derivatives in each direction for each entry; off-diagonal entries occur twice.
   constexpr int orders[6][3] = {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}};
   dealii::AlignedVector<Lanes> result;
   for (int entry = 0; entry < 6; ++entry) {

@@ -6,7 +6,7 @@
 namespace vehd::fem_check {
 namespace {
 
-/// The face that all points lie on, up to rounding.
+/// Face that contains all points up to rounding, if there is one.
 std::optional<unsigned> common_face(const std::vector<UnitPoint>& units) {
   for (unsigned face = 0; face < 6 && !units.empty(); ++face) {
     const auto lies_on = [&](const UnitPoint& unit) { return std::abs(unit[face / 2] - face % 2) < 1e-12; };

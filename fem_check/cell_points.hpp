@@ -7,20 +7,20 @@
 
 namespace vehd::fem_check {
 
-/// Nodal functions of one degree on the unit cell at points of one of its faces. What lies behind the face counts by
-/// its slope across it alone, so that sums run over the nodes of the face.
+/// Evaluates nodal functions of one degree on the unit cell at points of one of its faces. Nodes off the face
+/// contribute only to the derivative across it, so that the sums run over the nodes of the face.
 class FaceSums {
  public:
   explicit FaceSums(int degree);
 
-  /// Goes to points of a face in deal.II's numbering, [2 x points]: the two coordinates after its own, in turn.
+  /// Selects a face in deal.II's numbering, and points [2 x points]: the two coordinates after its axis, cyclically.
   void reinit(unsigned face, const Eigen::Matrix2Xd& points);
-  /// At the points, [components x points].
+  /// Values and derivatives at the points, [components x points].
   struct Fields {
     Eigen::MatrixXd value;
-    std::array<Eigen::MatrixXd, 3> derivative;  ///< by the unit coordinates
+    std::array<Eigen::MatrixXd, 3> derivative;  ///< with respect to the unit coordinates
   };
-  /// @param nodal  [components x nodes of the cell], deal.II's order
+  /// @param nodal  [components x nodes of the cell], in deal.II's order
   [[nodiscard]] Fields operator()(const Eigen::MatrixXd& nodal) const;
 
  private:
@@ -30,26 +30,26 @@ class FaceSums {
   };
 
   int n_line_;
-  std::vector<unsigned> number_;     // of the node at each place of the lattice, first coordinate fastest
-  std::array<Vector, 2> end_slope_;  // derivatives of the functions of a line at its ends
-  std::vector<Known> known_;         // cells lie at a face in few ways
-  std::size_t now_ = 0;              // of these
+  std::vector<unsigned> number_;     // of the node at each lattice position, first coordinate fastest
+  std::array<Vector, 2> end_slope_;  // derivatives of the nodal functions of a line at its ends
+  std::vector<Known> known_;         // few sets of points occur
+  std::size_t now_ = 0;              // index of the selected one
   unsigned face_ = 0;
 };
 
-/// Geometry and fields of one cell at given unit points, by sums over one direction after the other. Places and
-/// gradients as users know them.
+/// Geometry and fields of one cell at given unit points, by sum factorisation. Positions and gradients are in the
+/// user's units.
 class CellPoints {
  public:
   CellPoints(const Space& space, const dealii::DoFHandler<3>& handler);
 
-  /// Goes to points of a cell; several times faster where all lie on one face.
+  /// Selects a cell and points in it; several times faster if all points lie on one face.
   void reinit(unsigned cell, const std::vector<UnitPoint>& units);
   [[nodiscard]] Vectors positions() const;                   ///< [3 x n_points]
   [[nodiscard]] Matrix3 jacobian(Eigen::Index point) const;  ///< ∂x/∂unit
-  /// A field at the points, [n_points], from its nodal values on all ranks.
+  /// Values of a field at the points, [n_points], from its nodal values on all ranks.
   [[nodiscard]] Vector values(const dealii::Vector<double>& nodal);
-  /// Its gradient there, [3 x n_points].
+  /// Gradient of a field at the points, [3 x n_points].
   [[nodiscard]] Vectors gradients(const dealii::Vector<double>& nodal);
 
  private:
@@ -60,7 +60,7 @@ class CellPoints {
   const dealii::DoFHandler<3>& handler_;
   dealii::FEPointEvaluation<1, 3> evaluation_;
   FaceSums of_geometry_, of_fields_;
-  std::optional<FaceSums::Fields> geometry_;  // where the points lie on one face; without unit
+  std::optional<FaceSums::Fields> geometry_;  // if all points lie on one face; dimensionless
   std::vector<DofIndex> dofs_;
   std::vector<double> local_;
   std::size_t n_points_ = 0;

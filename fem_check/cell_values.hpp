@@ -2,7 +2,7 @@
 
 #include "fem_check/cell_kernel.hpp"
 #include "fem_check/cell_loops.hpp"
-// deal.II's library holds what its reading of nodal values calls for one cell at a time only.
+// The deal.II library contains the functions that read nodal values for single cells only.
 #include <deal.II/matrix_free/evaluation_template_factory_hanging_nodes.templates.h>
 
 namespace vehd::fem_check {
@@ -13,27 +13,27 @@ template <int n_components>
 class CellValues {
  public:
   /// @param field   its number in the loops
-  /// @param kernel  of its degree at the points of the loops; has to live as long as this
+  /// @param kernel  of the degree of the field and the points of the loops; must outlive this object
   CellValues(const CellLoops& loops, unsigned field, const CellKernel& kernel)
       : cell_(loops, field), kernel_(kernel), at_points_(cell_.begin_gradients()) {}
 
   void reinit(unsigned group) { cell_.reinit(group); }
   [[nodiscard]] unsigned n_points() const { return kernel_.n_points(); }
-  /// Of one component.
+  /// Nodes per component.
   [[nodiscard]] unsigned n_nodes() const { return cell_.dofs_per_component; }
   [[nodiscard]] Lanes* nodal(unsigned component = 0) { return cell_.begin_dof_values() + component * n_nodes(); }
 
-  /// Nodal values of a vector, or of as many as there are components, from the first on.
+  /// Reads nodal values from one vector, or from the first vectors of a list, one per component.
   template <typename From>
   void read(const From& from) {
     cell_.read_dof_values(from, 0);
   }
-  /// Adds the nodal values to a vector, or to as many as there are components.
+  /// Adds the nodal values to one vector, or to the first vectors of a list, one per component.
   template <typename To>
   void add_to(To& to) {
     cell_.distribute_local_to_global(to, 0);
   }
-  /// A constant has no gradient: taken off, it leaves no rounding, however large it is.
+  /// Subtracts a constant, which has no gradient: a large one would leave a rounding error.
   void remove_constants() {
     for (unsigned component = 0; component < n_components; ++component) {
       Lanes* values = nodal(component);
@@ -44,17 +44,17 @@ class CellValues {
 
   void evaluate_values() { for_each(&CellKernel::values); }
   void evaluate_gradients() { for_each(&CellKernel::gradients); }
-  /// Nodal values become Σ_q φ_i(q) f(q), f what was submitted as value.
+  /// Replaces the nodal values by Σ_q φ_i(q) f(q), f the submitted values.
   void integrate_values() { for_each_back(&CellKernel::integrate_values); }
-  /// Nodal values become Σ_q ∇φ_i(q)·f(q), f what was submitted as gradient.
+  /// Replaces the nodal values by Σ_q ∇φ_i(q)·f(q), f the submitted gradients.
   void integrate_gradients() { for_each_back(&CellKernel::integrate_gradients); }
 
-  /// Of the first component, until something is submitted there.
+  /// Value of the first component, until a value is submitted at this point.
   [[nodiscard]] const Lanes& value(unsigned q) const { return at_points_[q]; }
   void submit_value(const Lanes& value, unsigned q) { at_points_[q] = value * cell_.JxW(q); }
-  /// Derivatives by unit coordinates, [3 x points]: one direction after the other.
+  /// Derivatives with respect to the unit coordinates, [3 x points]: one direction after the other.
   [[nodiscard]] Lanes* slopes(unsigned component = 0) { return at_points_ + component * 3 * n_points(); }
-  /// [component][direction]
+  /// ∇u, [component][direction].
   [[nodiscard]] dealii::Tensor<2, 3, Lanes> gradient(unsigned q) const {
     static_assert(n_components == 3);
     const dealii::Tensor<2, 3, Lanes> inverse = cell_.inverse_jacobian(q);
@@ -81,7 +81,7 @@ class CellValues {
     }
   }
 
-  /// Transposed: ∇ = inverse · derivatives by unit coordinates.
+  /// Transposed inverse: ∇ = inverse · derivatives with respect to the unit coordinates.
   [[nodiscard]] dealii::Tensor<2, 3, Lanes> inverse_jacobian(unsigned q) const { return cell_.inverse_jacobian(q); }
   [[nodiscard]] Lanes weight(unsigned q) const { return cell_.JxW(q); }
 
@@ -99,7 +99,7 @@ class CellValues {
 
   dealii::FEEvaluation<3, -1, 0, n_components, double, Lanes> cell_;
   const CellKernel& kernel_;
-  Lanes* at_points_;  // memory of the cell's
+  Lanes* at_points_;  // memory of cell_
 };
 
 }  // namespace vehd::fem_check

@@ -1,10 +1,10 @@
 #pragma once
 
-/// The parts of deal.II that fem_check uses, compiled once. Only sources of this folder include it: the public headers
-/// are free of deal.II.
+/// The parts of deal.II that fem_check uses, compiled once. Only sources of this folder include this header; the public
+/// headers do not depend on deal.II.
 
 #include "fem_check/lanes.hpp"
-// Lanes first.
+// lanes.hpp must come first.
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>

@@ -11,14 +11,14 @@ namespace vehd::fem_check {
 
 namespace {
 
-/// How far a unit point lies outside its cell.
+/// Largest distance of a unit coordinate from [0, 1].
 double excess(const UnitPoint& unit) {
   double result = 0.0;
   for (unsigned d = 0; d < 3; ++d) result = std::max({result, -unit[d], unit[d] - 1.0});
   return result;
 }
 
-/// Within a tenth of its size of the box of the cell's mapping nodes, past which a curved cell hardly bulges.
+/// Whether a point is in the box of the cell's mapping nodes, enlarged by a tenth: curved cells bulge little beyond it.
 bool near(const dealii::BoundingBox<3>& box, const dealii::Point<3>& point) {
   for (unsigned d = 0; d < 3; ++d) {
     const double margin = 0.1 * box.side_length(d);
@@ -30,7 +30,7 @@ bool near(const dealii::BoundingBox<3>& box, const dealii::Point<3>& point) {
 struct Candidate {
   unsigned cell = 0;
   UnitPoint unit;
-  double excess = 1e-6;  ///< a point this far outside, in unit coordinates, still counts: rounding of the inversion
+  double excess = 1e-6;  ///< tolerance in unit coordinates: rounding of the inversion of the mapping
   bool found = false;
 };
 
@@ -43,7 +43,7 @@ Candidate find_cell(const Space& space, const dealii::Point<3>& point) {
       const double out = excess(unit);
       if (out <= best.excess) best = {c, unit, out, true};
     } catch (const dealii::Mapping<3>::ExcTransformationFailed&) {
-      // Newton's method left the neighbourhood of this cell: the point lies in another one.
+      // Newton's method left the neighbourhood of this cell, so the point is in another one.
     }
   }
   return best;

@@ -18,7 +18,7 @@ meshes::HarmonicSeries all_harmonics(int degree) {
   return meshes::HarmonicSeries(Eigen::MatrixXd::Identity(n_harmonics(degree), n_harmonics(degree)));
 }
 
-/// A rule on the unit sphere that is exact for products of two fields with components up to a degree.
+/// Quadrature rule on the unit sphere, exact for products of two fields with components up to a degree.
 struct SphereRule {
   std::vector<Vector3> direction;
   std::vector<double> weight;
@@ -53,12 +53,12 @@ Eigen::MatrixXd exterior_potential(int degree, double robin) {
 
 namespace {
 
-/// Families of flows outside, of harmonics up to a degree, on the unit sphere.
+/// Families of exterior flows up to a degree, on the unit sphere.
 struct ExteriorFlows {
   static constexpr std::size_t n_families = 3;
 
-  /// Coefficients of the harmonics of each component in a column, [components x harmonics] x [harmonics]. V has
-  /// components of one degree more than its harmonic.
+  /// Coefficients of each flow in a column, [components x harmonics] x [harmonics]. The components of the third family
+  /// have one degree more than its harmonic.
   std::array<Eigen::MatrixXd, n_families> coefficients;
 
   /// (p n − μ ∂u/∂r)/(μ u)
@@ -103,7 +103,7 @@ Eigen::MatrixXd for_each_component(const Eigen::MatrixXd& block) {
   return result;
 }
 
-/// The columns x with matrix · x = 0, orthonormal.
+/// Orthonormal basis of the solutions x of matrix · x = 0.
 Eigen::MatrixXd kernel_of(const Eigen::MatrixXd& matrix) {
   constexpr double rounding = 1e-9;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeFullV);
@@ -117,7 +117,7 @@ Matrix3 frame_of(const Vector3& normal) {
   return Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), normal).toRotationMatrix();
 }
 
-/// Harmonics on the circle in which the sphere meets a wall through its centre, [points x harmonics].
+/// Harmonics on the circle in which the sphere intersects a wall through its centre, [points x harmonics].
 Eigen::MatrixXd on_rim(const meshes::HarmonicSeries& harmonics, int degree, const Vector3& normal) {
   const Matrix3 frame = frame_of(normal);
   const int n_points = 2 * degree + 1;
@@ -128,7 +128,7 @@ Eigen::MatrixXd on_rim(const meshes::HarmonicSeries& harmonics, int degree, cons
   return harmonics.values(points).transpose();
 }
 
-/// ∫ of products of harmonics up to a degree over the half sphere above the wall.
+/// ∫ of the products of harmonics up to a degree over the half sphere above the wall.
 Eigen::MatrixXd half_sphere_products(const meshes::HarmonicSeries& harmonics, int degree, const Vector3& normal) {
   const Matrix3 frame = frame_of(normal);
   const meshes::GaussRule gauss = meshes::gauss_rule(degree + 1);
@@ -172,7 +172,7 @@ Eigen::MatrixXd continued(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& 
     const Vector3 image = direction - 2.0 * normal.dot(direction) * normal;
     images += rule.weight[q] * harmonics.value(direction) * harmonics.value(image).transpose();
   }
-  // Moments of the whole sphere are those of the half and of its image; the energy is that of the half.
+  // Moments over the whole sphere are sums over the half and its image; the energy is that of the half.
   Eigen::MatrixXd both = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
   for (Eigen::Index i = 0; i < n_components; ++i) {
     for (Eigen::Index j = 0; j < n_components; ++j) both.block(i * n, j * n, n, n) += mirror(i, j) * images;
@@ -193,12 +193,12 @@ Eigen::MatrixXd exterior_flow_at_rest_on_wall(int degree, double robin, const Ve
   for (int decay = 1; decay <= degree; ++decay) {
     Eigen::MatrixXd velocities(size, 0), tractions(size, 0);
     for (std::size_t family = 0; family < ExteriorFlows::n_families; ++family) {
-      // r^−l with a pressure, r^(−l−1) of X, r^(−l−2) of V
+      // Powers of r of the families: r^(−l) with a pressure, r^(−l−1), r^(−l−2).
       const int l = decay - static_cast<int>(family);
       if (l < 1) continue;
       Eigen::MatrixXd modes = flows.of_degree(family, l), own = ExteriorFlows::factor(family, l) * modes;
       if (family == 0) {
-        // W goes on as r^−l with a part of r^(−l−2) V; without that part its values on the sphere have V in them.
+        // The first family continues as r^(−l) and a part of r^(−l−2) of the third one, which is subtracted here.
         const double share = (l + 1.0) / (2.0 * l + 1.0), of_third = 0.5 * (2.0 - l) - share;
         modes = share * modes + of_third * flows.of_degree(2, l);
         own = share * own + of_third * ExteriorFlows::factor(2, l) * flows.of_degree(2, l);
@@ -211,7 +211,7 @@ Eigen::MatrixXd exterior_flow_at_rest_on_wall(int degree, double robin, const Ve
     append(velocity, velocities * at_rest);
     append(traction, tractions * at_rest);
   }
-  // With the energies A = ∫ Uᵀ T of the flows outside, c = A⁻¹ ∫ Tᵀ u.
+  // Exterior flows with the energies A = ∫ Uᵀ T have c = A⁻¹ ∫ Tᵀ u.
   const Eigen::MatrixXd products = for_each_component(half_sphere_products(harmonics, degree + 1, normal));
   const Eigen::MatrixXd energies = velocity.transpose() * products * traction;
   const Eigen::MatrixXd shares = (0.5 * (energies + energies.transpose())).ldlt().solve(traction.transpose());

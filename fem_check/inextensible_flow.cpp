@@ -21,21 +21,20 @@ struct InextensibleFlow::Data {
 
 namespace {
 
-/// Below this variation of H, see TensionElements, a constant tension does nothing that would be seen in the flow.
+/// Below this variation of H (TensionElements) a constant tension has no noticeable effect on the flow.
 constexpr double least_variation = 1e-3;
 
-/// Energy of the residual, over that of the right-hand side, that leaves an error of the tolerance in λ. Where H varies
-/// little, the force of a constant tension is almost a pressure: the energy of the flow that it drives takes an error
-/// of this tension for smaller by the variation.
+/// Required relative norm of the residual for a given error of λ. If H varies little, the force of a constant tension
+/// is almost a pressure: the energy of the flow that it drives underestimates an error of this tension by the factor of
+/// the variation.
 double residual_for(double tolerance, const TensionElements& elements, bool constant_is_determined) {
   return constant_is_determined ? tolerance * std::min(1.0, elements.variation_of_curvature()) : tolerance;
 }
 
-/// After those of the flow. The first rank holds all of it.
+/// Follows the blocks of the flow. The first rank stores all of it.
 constexpr unsigned tension_block = 4;
 
-/// [[Stokes, Cᵀ/R], [C/R, 0]] in the units of the Stokes system: the last block is λ/μ_e, and R the length of the
-/// space.
+/// [[Stokes, Cᵀ/R], [C/R, 0]] in the units of the Stokes system: the last block is λ/μ_e, R is the length of the space.
 class InextensibleSystem {
  public:
   InextensibleSystem(const StokesSystem& stokes, const TensionElements& elements)
@@ -48,7 +47,7 @@ class InextensibleSystem {
         pair_of_node_[nodes.of_face(f)[i]] = pairs.of_face[f][i];
       }
     }
-    // The outer sheet stands for both.
+    // Degrees of freedom of the outside represent both sides.
     const Blocks blocks = stokes.zero();
     const auto& partition = *blocks.block(0).get_partitioner();
     for (std::size_t node = 0; node < pair_of_node_.size(); ++node) {
@@ -101,13 +100,13 @@ class InextensibleSystem {
     const dealii::Vector<double> values = on_all_ranks(x.block(tension_block), communicator());
     return Eigen::Map<const Vector>(values.begin(), static_cast<Eigen::Index>(values.size()));
   }
-  /// Puts values known on all ranks into the last block.
+  /// Sets the last block to values given on all ranks.
   static void set_tension(const Vector& values, Blocks& to) {
     Distributed& block = to.block(tension_block);
     std::copy_n(values.data(), block.locally_owned_size(), block.begin());
   }
 
-  /// Values at the nodes of the trace, in its order, from those at the nodes of the elements.
+  /// Values at the nodes of the trace, in the order of its pairs, from those at the nodes of the elements.
   [[nodiscard]] Vector in_pairs(const Vector& nodal) const {
     Vector result(nodal.size());
     for (Eigen::Index i = 0; i < nodal.size(); ++i) result[pair_of_node_[i]] = nodal[i];
@@ -115,10 +114,10 @@ class InextensibleSystem {
   }
 
  private:
-  /// A node of γ whose velocity belongs to this rank.
+  /// A node of γ whose velocity is stored on this rank.
   struct OwnNode {
     Eigen::Index node;
-    unsigned place;  ///< among the entries of this rank
+    unsigned place;  ///< local index on this rank
   };
 
   [[nodiscard]] MPI_Comm communicator() const { return stokes_.space().communicator; }
@@ -135,14 +134,14 @@ struct BlockPreconditioners {
   const InextensibleSystem& system;
   const TensionPreconditioner& tension;
 
-  /// Of the last block. The operator of the tension in the units of the blocks is μ_e/R of that of the preconditioner.
+  /// Preconditions the last block. In the units of the blocks, the operator of the tension has the factor μ_e/R.
   [[nodiscard]] Vector apply_tension(const Vector& residual) const {
     const double unit = stokes.space().length * stokes.space().length / stokes.functional_unit();
     return system.sum_over_ranks(unit * tension.apply(residual));
   }
 };
 
-/// Each block on its own.
+/// Preconditions each block separately.
 struct DiagonalPreconditioner {
   const BlockPreconditioners& blocks;
 
@@ -152,7 +151,7 @@ struct DiagonalPreconditioner {
   }
 };
 
-/// Pressure and tension after the velocity, see StokesSystem::precondition_triangular().
+/// Preconditions velocity, then pressure and tension; see StokesSystem::precondition_triangular().
 struct TriangularPreconditioner {
   const BlockPreconditioners& blocks;
 
@@ -170,7 +169,7 @@ struct InextensibleOperators::Data {
   std::shared_ptr<const TensionElements> elements;
   bool constant_is_determined;
   TensionPreconditioner preconditioner;
-  double seconds;  ///< that setting up took, without the flow
+  double seconds;  ///< time of the set-up, without the flow
 };
 
 InextensibleOperators::InextensibleOperators(const Discretisation& discretisation, FlowOperators flow) {
@@ -211,7 +210,7 @@ InextensibleFlow solve_inextensible_flow(const InextensibleOperators& operators,
   const Blocks load = stokes.load(problem.force, problem.gradient);
   Blocks b = system.zero();
   for (unsigned block = 0; block < tension_block; ++block) b.block(block) = load.block(block);
-  // ∇_γ·(½ e x) = e.
+  // ∇_γ·(½ e x) = e, so the dilation is subtracted from the gradient.
   const Matrix3 left_out = problem.gradient - 0.5 * problem.dilation * Matrix3::Identity();
   InextensibleSystem::set_tension(-elements->divergence_of_linear_flow(left_out) / space.length, b);
   Blocks x = system.zero();

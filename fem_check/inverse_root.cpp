@@ -6,7 +6,7 @@
 namespace vehd::fem_check {
 
 InverseRoot::InverseRoot(const Matrix& stiffness, const Matrix& mass, double smallest, double largest, Share share) {
-  // The rule itself errs by 2 exp(−2π²/step); what is cut off on either side is (2/π) exp(−margin/2) of the result.
+  // Relative errors: 2 exp(−2π²/step) of the rule, (2/π) exp(−margin/2) of the truncation on either side.
   constexpr double step = 3.0;
   constexpr double margin = 6.0;
   const double first = std::log(smallest) - margin;

@@ -12,13 +12,13 @@ namespace vehd::fem_check {
 ///
 ///   z^(−1/2) = (1/π) ∫ e^(t/2) / (z + eᵗ) dt:
 ///
-/// a sum of solutions with K + eᵗ M. For preconditioners: within a few per cent, symmetric and positive definite.
+/// a sum of solutions with K + eᵗ M. For preconditioners: accurate to a few per cent, symmetric positive definite.
 /// Source: Bonito and Pasciak 2015
 class InverseRoot {
  public:
   using Matrix = Eigen::SparseMatrix<double>;
 
-  /// One of several ranks between which the solutions are divided.
+  /// Number of a rank and number of ranks, among which the solutions are divided.
   struct Share {
     int number = 0, of = 1;
   };
@@ -27,7 +27,7 @@ class InverseRoot {
   /// @param smallest, largest  bounds of the eigenvalues of M⁻¹K
   InverseRoot(const Matrix& stiffness, const Matrix& mass, double smallest, double largest, Share share);
 
-  /// Sum of this share's solutions for x, both [nodes]; the sum over all shares is the result.
+  /// Sum of this rank's solutions for x, both [nodes]; the sum over all ranks is the result.
   [[nodiscard]] Vector apply(const Vector& x) const;
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fem_check/lanes.hpp"
-// Lanes first.
+// lanes.hpp must come first.
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/solver_minres.h>
 
@@ -13,8 +13,8 @@
 
 namespace vehd::fem_check {
 
-/// √(r · P r): the size of a residual as its preconditioner P measures it. P is close to the inverse of the energy, so
-/// this is about the energy of the error, whatever the contrast of the coefficients.
+/// √(r · P r): size of a residual in the norm of its preconditioner P. P approximates the inverse of the energy form,
+/// so this approximates the energy norm of the error for any contrast of the coefficients.
 template <typename Preconditioner, typename VectorType>
 double energy_of_residual(const Preconditioner& preconditioner, const VectorType& residual) {
   VectorType preconditioned(residual);
@@ -22,18 +22,18 @@ double energy_of_residual(const Preconditioner& preconditioner, const VectorType
   return std::sqrt(std::max(0.0, preconditioned * residual));
 }
 
-/// Of all corrections together, and of each.
+/// Maximum of iterations, for all corrections together and for each.
 constexpr int most_iterations = 3000;
 
-/// Adds corrections to x until the true residual is small enough: the recursion of a solver alone drifts away from it
-/// by rounding, or measures it differently. A correction that is small in the solver's own measure may raise the
-/// energy, which falls with the next ones.
+/// Adds corrections to x until the true residual is small enough: the residual in a solver's recursion differs from it
+/// by rounding, or is measured in another norm. A correction that is small in the solver's norm can increase the
+/// energy, which decreases with the following ones.
 /// @param measure  P of energy_of_residual
-/// @param x        start and result
-/// @param goal     what energy_of_residual has to fall to
-/// @param correct  finds a correction: correct(correction, residual, its energy), and returns its steps
-/// @return         its value at x
-/// @throws SolveError if it does not within most_iterations
+/// @param x        initial guess and result
+/// @param goal     required value of energy_of_residual
+/// @param correct  computes a correction: correct(correction, residual, its energy) returns the number of steps
+/// @return         energy_of_residual at x
+/// @throws SolveError if the goal is not reached within most_iterations
 template <typename Operator, typename Measure, typename VectorType, typename Correct>
 double corrected(const Operator& a, const Measure& measure, const VectorType& b, VectorType& x, double goal,
                  int& iterations, const char* what, const Correct& correct) {
@@ -56,7 +56,7 @@ double corrected(const Operator& a, const Measure& measure, const VectorType& b,
     }
     VectorType correction(x);
     correction = 0.0;
-    // One without a step would be repeated for ever.
+    // Counts at least one step, so that the loop ends.
     steps += std::max(1, correct(correction, residual, size));
     x += correction;
     size = size_now();
@@ -65,7 +65,7 @@ double corrected(const Operator& a, const Measure& measure, const VectorType& b,
   return size;
 }
 
-/// Steps that a solver took, whether it got where it should or not: the true residual says what was reached.
+/// Steps of a solver, converged or not: the caller computes the true residual.
 template <typename Solve>
 int steps_of(const dealii::SolverControl& control, const Solve& solve) {
   try {
@@ -75,11 +75,11 @@ int steps_of(const dealii::SolverControl& control, const Solve& solve) {
   return static_cast<int>(control.last_step());
 }
 
-/// Minimal residuals of symmetric equations in the norm of the preconditioner.
-/// @param x     start and result
-/// @param goal  what energy_of_residual has to fall to
-/// @return      its value at x
-/// @throws SolveError if it does not
+/// Minimal residual method for symmetric equations in the norm of the preconditioner.
+/// @param x     initial guess and result
+/// @param goal  required value of energy_of_residual
+/// @return      energy_of_residual at x
+/// @throws SolveError if the goal is not reached
 template <typename Operator, typename Preconditioner, typename VectorType>
 double minimal_residuals(const Operator& a, const Preconditioner& preconditioner, const VectorType& b, VectorType& x,
                          double goal, int& iterations, const char* what) {
@@ -91,7 +91,7 @@ double minimal_residuals(const Operator& a, const Preconditioner& preconditioner
                    });
 }
 
-/// Generalised minimal residuals: as minimal_residuals, with a preconditioner that need not be symmetric.
+/// Generalised minimal residual method: as minimal_residuals, but the preconditioner need not be symmetric.
 /// @param measure         P of energy_of_residual
 /// @param preconditioner  approximate inverse
 template <typename Operator, typename Measure, typename Preconditioner, typename VectorType>
@@ -99,8 +99,8 @@ double generalised_minimal_residuals(const Operator& a, const Measure& measure, 
                                      const VectorType& b, VectorType& x, double goal, int& iterations,
                                      const char* what) {
   constexpr unsigned most_directions = 100;
-  // The solver measures the preconditioned residual node by node, which may fall a little without the energy: from a
-  // start that is nearly good enough a correction reduces it to a tenth at least as well.
+  // The solver uses the Euclidean norm of the preconditioned residual, which can decrease slightly while the energy
+  // does not: even near the goal a correction therefore reduces it at least tenfold.
   constexpr double largest_reduction = 0.1;
   return corrected(
       a, measure, b, x, goal, iterations, what, [&](VectorType& correction, const VectorType& residual, double size) {

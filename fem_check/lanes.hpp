@@ -1,13 +1,13 @@
 #pragma once
 
-/// Vector registers for deal.II's matrix-free loops; to be included before any other header of deal.II.
+/// Vector registers for deal.II's matrix-free loops. Include this before any other header of deal.II.
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/numbers.h>
 
-// A distribution compiles deal.II for every x86-64 and configures it to work on one number at a time; that stays the
-// default of VectorizedArray (numbers.h), as in the compiled library. The wider types are header code alone: they come
-// with the instruction set that vehd is compiled for, and loops that name them are compiled here.
+// Distributions compile deal.II for every x86-64 and configure it for scalar numbers; that remains the default of
+// VectorizedArray (numbers.h), as in the compiled library. The wider types are header-only: they depend on the
+// instruction set for which vehd is compiled, and loops that use them are compiled here.
 #pragma push_macro("DEAL_II_VECTORIZATION_WIDTH_IN_BITS")
 #undef DEAL_II_VECTORIZATION_WIDTH_IN_BITS
 #if defined(__AVX512F__)
@@ -23,7 +23,7 @@
 
 namespace vehd::fem_check {
 
-/// One number of each of several cells, which are worked on at once.
+/// One number for each of several cells, which are processed at once.
 #if DEAL_II_VECTORIZATION_WIDTH_IN_BITS > 0
 using Lanes = dealii::VectorizedArray<double, DEAL_II_VECTORIZATION_WIDTH_IN_BITS / 64>;
 #else

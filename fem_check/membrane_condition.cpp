@@ -59,8 +59,8 @@ bool mean_is_free(const PotentialProblem& problem, int vesicle) {
   return steady != nullptr && steady->conductance[vesicle] == 0.0;
 }
 
-/// The better conductor is given its own values on γ and the other side follows: the jump is then carried by the side
-/// whose energy is small.
+/// The degrees of freedom on γ are those of the better conductor, and the other side is tied to them: the jump is then
+/// carried by the side whose energy is small.
 Fixed fixed_nodes(const PotentialProblem& problem, int n_vesicles) {
   Fixed fixed;
   if (std::holds_alternative<PrescribedJump>(problem.membrane)) {
@@ -71,7 +71,7 @@ Fixed fixed_nodes(const PotentialProblem& problem, int n_vesicles) {
   }
   fixed.outer = problem.outer.kind == OuterCondition::Kind::dirichlet;
   fixed.wall = problem.wall == WallField::electrode;
-  // Given fluxes leave the constant outside free; the node is far from γ.
+  // With given fluxes the constant outside is undetermined; a node far from γ fixes it.
   fixed.outer_value = problem.outer.kind == OuterCondition::Kind::neumann;
   for (int vesicle = 0; vesicle < n_vesicles; ++vesicle) {
     if (mean_is_free(problem, vesicle)) fixed.floating.push_back(vesicle);

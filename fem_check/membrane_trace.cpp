@@ -4,7 +4,7 @@ namespace vehd::fem_check {
 
 namespace {
 
-/// Lagrange polynomials of the nodes at one point.
+/// Lagrange polynomials of the nodes at a point.
 Vector lagrange(const std::vector<double>& nodes, double x) {
   Vector result = Vector::Ones(static_cast<Eigen::Index>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -15,7 +15,7 @@ Vector lagrange(const std::vector<double>& nodes, double x) {
   return result;
 }
 
-/// Tensor products, first coordinate fastest.
+/// Their tensor products at a point of the unit square, first coordinate fastest.
 Vector lagrange(const std::vector<double>& nodes, const Eigen::Vector2d& point) {
   const Vector first = lagrange(nodes, point[0]);
   const Vector second = lagrange(nodes, point[1]);
@@ -30,7 +30,7 @@ SurfacePoints gauss_points(const Space& space, int per_edge) {
   return tensor_points(space, nodes, gauss.get_weights());
 }
 
-/// Of the lattice points of all faces the first at each node: the order in which the pairs are numbered.
+/// First lattice point at each node, in the order of the pairs.
 SurfacePoints first_at_each_node(const SurfacePoints& lattice, const SheetPairs& pairs) {
   std::vector<Eigen::Index> kept;
   Eigen::Index point = 0;
@@ -43,7 +43,7 @@ SurfacePoints first_at_each_node(const SurfacePoints& lattice, const SheetPairs&
   return lattice.picked(kept);
 }
 
-/// Values of all trace functions at the points of one face of a rule: [points x nodes].
+/// Values of the trace functions of a face at its points of a rule: [points x nodes].
 Eigen::MatrixXd face_values(const SurfacePoints& rule, Eigen::Index per_face, const std::vector<double>& nodes) {
   Eigen::MatrixXd values(per_face, static_cast<Eigen::Index>(nodes.size() * nodes.size()));
   for (Eigen::Index q = 0; q < per_face; ++q) {

@@ -7,7 +7,7 @@ namespace {
 using Smoother = dealii::PreconditionChebyshev<Stiffness, Distributed, dealii::DiagonalMatrix<Distributed>>;
 using Transfer = dealii::MGTransferGlobalCoarsening<3, Distributed>;
 
-/// Degrees from the coarsest to the finest.
+/// Degrees of the levels from coarsest to finest.
 std::vector<int> degrees_of_levels(int degree) {
   std::vector<int> degrees;
   for (; degree >= 1; degree /= 2) degrees.insert(degrees.begin(), degree);
@@ -51,14 +51,14 @@ class LevelSmoothers : public dealii::MGSmootherBase<Distributed> {
   const std::vector<std::unique_ptr<Smoother>>& smoothers_;
 };
 
-/// Factors of the matrix of the coarsest level, whole on every rank.
+/// Direct solver of the coarsest level, complete on every rank.
 class CoarseSolver : public dealii::MGCoarseGridBase<Distributed> {
  public:
   explicit CoarseSolver(const Stiffness& level) : communicator_(level.space().communicator) {
     const Space& space = level.space();
     const dealii::DoFHandler<3>& handler = level.handler();
     const auto n = static_cast<Eigen::Index>(handler.n_dofs());
-    // Number of the free degree of freedom that stands for each, or −1.
+    // Free degree of freedom to which each one is tied, or −1 if it is fixed.
     std::vector<Eigen::Index> free(handler.n_dofs());
     std::vector<Eigen::Triplet<double>> entries;
     for (DofIndex dof = 0; dof < handler.n_dofs(); ++dof) {
@@ -141,7 +141,7 @@ struct Multigrid::Implementation {
   std::unique_ptr<CoarseSolver> coarse;
   std::unique_ptr<LevelMatrices> matrices;
   std::unique_ptr<LevelSmoothers> smooth;
-  // Recent versions of deal.II keep pointers to these.
+  // Recent versions of deal.II keep pointers to these objects.
   dealii::MGLevelObject<dealii::MGTwoLevelTransfer<3, Distributed>> transfers;
   std::unique_ptr<Transfer> transfer;
   std::unique_ptr<dealii::Multigrid<Distributed>> cycle;

@@ -5,25 +5,25 @@
 
 namespace vehd::fem_check {
 
-/// A value of each vesicle. One value is that of all.
+/// A value for each vesicle; a single value applies to all of them.
 template <typename Value>
 class PerVesicle {
  public:
-  // Implicit: most problems have one vesicle, or the same value for all.
+  // Implicit, since most problems have one vesicle or equal values for all.
   PerVesicle(Value of_all) : values_{std::move(of_all)} {}
   PerVesicle(std::vector<Value> of_each) : values_(std::move(of_each)) {}
 
   const Value& operator[](int vesicle) const {
     return values_[values_.size() == 1 ? 0 : static_cast<std::size_t>(vesicle)];
   }
-  /// All that differ in place.
+  /// The stored values: one for all, or one for each vesicle.
   [[nodiscard]] const std::vector<Value>& values() const { return values_; }
 
  private:
   std::vector<Value> values_;
 };
 
-/// Of each of so many vesicles what a function makes of its number.
+/// Values f(number) for so many vesicles.
 template <typename Function>
 auto per_vesicle(int n_vesicles, const Function& of_vesicle) {
   std::vector<decltype(of_vesicle(0))> values;

@@ -13,7 +13,7 @@ namespace vehd::fem_check {
 
 using PotentialData = PotentialSolution::Data;
 
-/// The equations of one problem; lengths in units of the space, conductivities over that of the outside.
+/// Equations of one problem; lengths in units of the space, conductivities relative to that of the outside.
 class PotentialEquations {
  public:
   explicit PotentialEquations(PotentialData& data)
@@ -40,13 +40,13 @@ class PotentialEquations {
     multigrid_.finest().initialize(unknowns_);
   }
 
-  /// That of the problem, which may be another one than before.
+  /// Takes the field of the problem, which can change between solutions.
   void take_field() {
     current_data_ = -data_.problem.conductivity_out * (trace_.rule().normal.transpose() * data_.problem.field);
     if (data_.problem.current_jump) current_data_ += data_.problem.current_jump(trace_.rule());
   }
 
-  /// The linear solver goes on from another solution on the same mesh.
+  /// Takes the initial guess from another solution on the same mesh.
   void begin_from(const PotentialData& start) {
     data_.constant = start.constant;
     const Stiffness& stiffness = multigrid_.finest();
@@ -57,9 +57,9 @@ class PotentialEquations {
     }
   }
 
-  /// @param memory  added to the current −g V_m of the membrane law, at the rule's points
+  /// @param memory  added to the current −g V_m of the membrane law, at the points of the rule
   void solve(const Vector& memory) {
-    // A constant inside a good conductor has no energy, and what varies there is small against it.
+    // A constant inside a good conductor has no energy but is large compared with the variation there: it is split off.
     std::vector<int> shifted;
     for (int vesicle = 0; vesicle < space_.n_vesicles; ++vesicle) {
       if (conducts_better(vesicle) && !mean_is_free(data_.problem, vesicle) && data_.constant[vesicle] == 0.0) {
@@ -72,7 +72,7 @@ class PotentialEquations {
     solve_for(memory, tolerance);
   }
 
-  /// j = σ_i ∂φ_i/∂n from the side that conducts worse: of the other one it would be a difference of large numbers.
+  /// j = σ_i ∂φ_i/∂n, computed from the poorer conductor: on the other side it is a difference of large numbers.
   [[nodiscard]] Vector current() const {
     const Stiffness& stiffness = multigrid_.finest();
     const std::vector<int>& vesicle = trace_.pairs().vesicle;
@@ -93,14 +93,14 @@ class PotentialEquations {
     return trace_.project(functional);
   }
 
-  /// The operator of the equations: what the exterior field does to the outer sphere is no part of the form.
+  /// Operator of the equations: the scalar form, and the exterior field at the outer sphere.
   void vmult(Distributed& to, const Distributed& from) const {
     multigrid_.finest().vmult(to, from);
     if (exterior_) exterior_->add({&to}, {&from});
   }
 
  private:
-  /// −R ∂u/∂r over u of a dipole, which the preconditioner has for every field on the outer sphere.
+  /// −R ∂u/∂r over u of a dipole; the preconditioner uses it for every field on the outer sphere.
   static constexpr double dipole_coefficient = 2.0;
 
   [[nodiscard]] bool radiates() const { return data_.problem.outer.kind == OuterCondition::Kind::radiation; }
@@ -108,18 +108,18 @@ class PotentialEquations {
   [[nodiscard]] bool conducts_better(int vesicle) const {
     return data_.problem.conductivity_in[vesicle] > data_.problem.conductivity_out;
   }
-  /// Coefficients of a form, over the conductivity outside.
+  /// Coefficients of a form, relative to the conductivity outside.
   [[nodiscard]] PerVesicle<double> over_outside(double factor, const PerVesicle<double>& of) const {
     return per_vesicle(space_.n_vesicles,
                        [&](int vesicle) { return factor * of[vesicle] / data_.problem.conductivity_out; });
   }
-  /// At the points of the rule g times values there, g the coefficient of the membrane.
+  /// Values at the points of the rule times the coefficient g of the membrane.
   [[nodiscard]] Vector times_membrane(Vector values) const {
     for (Eigen::Index i = 0; i < values.size(); ++i) values[i] *= membrane_[trace_.rule().vesicle[i]];
     return values;
   }
 
-  /// Values at the nodes that make the jump, and those on the outer sphere; zero at all others.
+  /// Nodal values that represent the prescribed jump and the given values on the outer sphere; zero at all other nodes.
   [[nodiscard]] dealii::Vector<double> lifting() const {
     const PotentialProblem& problem = data_.problem;
     dealii::Vector<double> result(space_.dofs.n_dofs());
@@ -141,7 +141,7 @@ class PotentialEquations {
     return result;
   }
 
-  /// ∫_γ (c − σ_e E·n) w_e + ∫_γ (memory − g (E·(x − x_0) + c)) [[w]] + outer terms − a(lifting, w), without units.
+  /// ∫_γ (c − σ_e E·n) w_e + ∫_γ (memory − g (E·(x − x_0) + c)) [[w]] + outer terms − a(lifting, w), dimensionless.
   [[nodiscard]] Distributed right_side(const Vector& memory, const dealii::Vector<double>& lift) const {
     const Stiffness& stiffness = multigrid_.finest();
     std::vector<DofIndex> inner;
@@ -183,7 +183,7 @@ class PotentialEquations {
     data_.nodal += lift;
   }
 
-  /// Moves the value at one inner node of a vesicle into its constant.
+  /// Adds the value at one inner node of a vesicle to its constant, and subtracts it from the unknowns inside.
   void move_constant(int vesicle) {
     const double step = data_.nodal[trace_.pairs().first_of(vesicle)[0]];
     data_.constant[vesicle] += step;
@@ -225,7 +225,7 @@ std::shared_ptr<PotentialData> data_of(const Discretisation& discretisation, con
   return data;
 }
 
-/// Where nothing else fixes the mean of V_m on a vesicle.
+/// Sets the mean of V_m on vesicles where nothing else fixes it.
 void set_free_means(PotentialData& data) {
   const SurfacePoints& rule = data.space->trace->rule();
   const Vector voltage = membrane_voltage(data, rule);
@@ -267,7 +267,7 @@ PotentialSolution solve_potential(const Discretisation& discretisation, const Po
     equations.solve(Vector::Zero(rule.size()));
     set_free_means(*data);
   }
-  // E_∞·x is no trace function. Where V_m is small against it, the projection leaves that error out of V_m.
+  // E_∞·x is not a trace function. If V_m is small by comparison, projecting the sum removes that error from V_m.
   data->voltage = trace.project(trace.integrate(membrane_voltage(*data, rule)));
   data->current = equations.current();
 

@@ -14,15 +14,15 @@ struct PrescribedJump {
   ScalarOnSurface potential_jump;
 };
 
-/// Steady membrane, −σ_i ∂φ_i/∂n = G_m V_m. With G_m = 0 the mean of V_m is free; `mean` fixes it, because charging
-/// conserves it. Otherwise `mean` is not used.
+/// Steady membrane, −σ_i ∂φ_i/∂n = G_m V_m. If G_m = 0, the mean of V_m is undetermined; `mean` prescribes it, since
+/// charging conserves it. Otherwise `mean` is not used.
 struct SteadyMembrane {
   PerVesicle<double> conductance = 0.0;
   PerVesicle<double> mean = 0.0;
 };
 
-/// Free charge of the inner face, −ε_i ∂φ_i/∂n = C_m V_m − q_i: the permittivities are the conductivities of the
-/// problem, and its current jump is q_i + q_e.
+/// Given free charge of the inner face, −ε_i ∂φ_i/∂n = C_m V_m − q_i: the conductivities of the problem are then
+/// permittivities, and its current jump is q_i + q_e.
 struct ChargedMembrane {
   PerVesicle<double> capacitance = 1.0;
   ScalarOnSurface inner_charge;  ///< q_i
@@ -44,7 +44,7 @@ using MembraneCondition = std::variant<PrescribedJump, SteadyMembrane, ChargedMe
 struct OuterCondition {
   /// Which condition holds.
   enum class Kind {
-    radiation,  ///< ∂ψ/∂r of the field outside: exact for harmonics up to the exterior degree
+    radiation,  ///< ∂ψ/∂r of the exterior field: exact for harmonics up to the exterior degree
     dirichlet,  ///< ψ given
     neumann     ///< ∂ψ/∂r given
   };
@@ -52,11 +52,11 @@ struct OuterCondition {
   std::function<double(const Vector3&)> value;  ///< absent: zero
 };
 
-/// Condition at the wall, if the mesh has one: no current through it, or ψ = 0. φ itself is constant there if E_∞
-/// is normal to it.
+/// Condition at the wall, if the mesh has one: no current through it, or ψ = 0. In the latter case φ is constant on it
+/// if E_∞ is normal to it.
 enum class WallField { insulating, electrode };
 
-/// Δφ = 0 on both sides of γ, φ → −E_∞·x far away. γ is all membranes of the mesh.
+/// Δφ = 0 on both sides of γ, which consists of all membranes of the mesh; φ → −E_∞·x far away.
 struct PotentialProblem {
   Vector3 field = Vector3::Zero();  ///< E_∞
   PerVesicle<double> conductivity_in = 1.0;
@@ -64,14 +64,14 @@ struct PotentialProblem {
   PerVesicle<double> permittivity_in = 1.0;
   double permittivity_out = 1.0;
   MembraneCondition membrane = SteadyMembrane{};
-  ScalarOnSurface current_jump;  ///< [[σ ∂φ/∂n]]; absent: zero, current is continuous
+  ScalarOnSurface current_jump;  ///< [[σ ∂φ/∂n]]; absent: zero, the current is continuous
   OuterCondition outer;
   WallField wall = WallField::insulating;
   double tolerance = 3e-12;  ///< of the linear solver, relative
   int exterior_degree = usual_exterior_degree;
 };
 
-/// Everything on γ that the boundary-integral side knows too. E = −∇φ.
+/// Traces on γ that the boundary integrals provide too. E = −∇φ.
 struct PotentialTraces {
   Vector transmembrane_potential;  ///< V_m
   Vector charge;                   ///< q = ∂φ_i/∂n − ∂φ_e/∂n, by variational recovery
@@ -91,17 +91,17 @@ class PotentialSolution {
   [[nodiscard]] PotentialTraces on_surface(const SurfacePoints& points) const;
   /// φ at points of the volume, [points.size()].
   [[nodiscard]] Vector potential(const VolumePoints& points) const;
-  /// Cost of the solve.
+  /// Cost of the solution.
   [[nodiscard]] const Cost& cost() const;
-  /// For solvers that begin from it.
+  /// Data for solvers that use it as initial guess.
   [[nodiscard]] const Data& data() const { return *data_; }
 
  private:
   std::shared_ptr<const Data> data_;
 };
 
-/// Solves the problem by the weak form.
-/// @param start  start of the linear solver, on the same mesh with elements of any degree; null: zero
+/// Solves the weak form of the problem.
+/// @param start  initial guess, on the same mesh with elements of any degree; null: zero
 /// @throws std::invalid_argument if a conductivity, conductance, capacitance or time step is out of range
 /// @throws SolveError if the linear solver does not converge
 /// Accuracy: φ and V_m of order degree + 1, fluxes of order degree (tests/fem_check/convergence_test.cpp)
@@ -109,11 +109,11 @@ class PotentialSolution {
 PotentialSolution solve_potential(const Discretisation& discretisation, const PotentialProblem& problem,
                                   const PotentialSolution* start = nullptr);
 
-/// Implicit steps of one size of a membrane that charges, for any rule that is made of such steps; the operators are
-/// set up once. V_m is its values at rule().
+/// Implicit steps of one size for a charging membrane, for any time integrator composed of such steps; the operators
+/// are set up once. V_m is represented by its values at rule().
 class ChargingSteps {
  public:
-  /// @param problem  its membrane is a ChargingMembrane, of which the initial V_m and the number of steps do not count
+  /// @param problem  with a ChargingMembrane, whose initial V_m and number of steps are not used
   /// @throws std::invalid_argument as solve_potential
   ChargingSteps(const Discretisation& discretisation, const PotentialProblem& problem);
   ~ChargingSteps();
@@ -122,15 +122,15 @@ class ChargingSteps {
 
   /// V_m at the points of the rule, [rule().size()], with C_m (V_m − from)/τ + G_m V_m = −σ_i ∂φ_i/∂n, τ the time step
   /// of the problem.
-  /// @param from   at the points of the rule, [rule().size()]
+  /// @param from   values at the points of the rule, [rule().size()]
   /// @param field  E_∞ at the end of the step
   /// @throws SolveError if the linear solver does not converge, std::invalid_argument for another number of values
   Vector step(const Vector& from, const Vector3& field);
   /// Gauss points of γ.
   [[nodiscard]] const SurfacePoints& rule() const;
-  /// A function given at the rule, [rule().size()], as a trace function at other points of γ, [points.size()].
+  /// Trace function of values at the rule, [rule().size()], evaluated at other points of γ, [points.size()].
   [[nodiscard]] Vector at(const SurfacePoints& points, const Vector& values) const;
-  /// Cost of the steps so far.
+  /// Accumulated cost of the steps.
   [[nodiscard]] const Cost& cost() const;
 
  private:

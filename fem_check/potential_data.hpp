@@ -5,9 +5,9 @@
 
 namespace vehd::fem_check {
 
-/// Inside the unknown is v = φ + E_∞·x_0 − c, outside the disturbance ψ = φ + E_∞·x, x_0 the centre of the outer sphere
-/// and c a constant of each vesicle close to its mean: the nearly constant field inside a good conductor, and the far
-/// field, are then not differences of large discrete numbers. V_m = v − ψ + E_∞·(x − x_0) + c.
+/// The unknown is v = φ + E_∞·x_0 − c inside and the disturbance ψ = φ + E_∞·x outside, with x_0 the centre of the
+/// outer sphere and c a constant of each vesicle close to the mean of φ inside. The nearly constant field inside a good
+/// conductor, and the far field, are then not differences of large discrete values. V_m = v − ψ + E_∞·(x − x_0) + c.
 struct PotentialSolution::Data {
   std::shared_ptr<const Space> space;
   PotentialProblem problem;

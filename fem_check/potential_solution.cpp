@@ -36,7 +36,7 @@ PotentialTraces PotentialSolution::on_surface(const SurfacePoints& points) const
   for (Eigen::Index p = 0; p < points.size(); ++p) {
     const double sigma_in = problem.conductivity_in[points.vesicle[p]];
     result.flux_in[p] = current[p] / sigma_in;
-    // Not flux_in − flux_out, nor 1/σ_i − 1/σ_e: σ_e − σ_i alone has no rounding error where both are nearly equal.
+    // Computed with σ_e − σ_i, not as flux_in − flux_out: no cancellation if the conductivities are nearly equal.
     result.charge[p] = (sigma_out - sigma_in) / (sigma_in * sigma_out) * current[p] + jump[p] / sigma_out;
   }
 

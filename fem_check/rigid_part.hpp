@@ -4,22 +4,22 @@
 
 #include "fem_check/space.hpp"
 
-/// Motions of a vesicle that is rigid inside, continued to the outside.
+/// Rigid motions of the inside of a vesicle, extended to the outside.
 namespace vehd::fem_check {
 
-/// Places of all nodes of this rank's cells, without unit; zero for others.
+/// Dimensionless positions of all nodes of this rank's cells; zero for other nodes.
 std::vector<Vector3> node_places(const Space& space);
 
-/// How much of the motion of one rigid inside each node takes part in.
+/// Fraction of the rigid motion of one inside at each node.
 struct RigidPart {
   std::vector<double> share;
-  Vector3 centre = Vector3::Zero();  ///< without unit
+  Vector3 centre = Vector3::Zero();  ///< dimensionless
 };
 
-/// All of it up to the sphere around the membrane, then with the decay of a rotlet: of a single vesicle.
+/// Fraction 1 within the sphere around the membrane, then the decay of a rotlet; for a single vesicle.
 RigidPart rigid_in_a_sphere(const Space& space, const std::vector<Vector3>& places);
 
-/// All of it inside, falling to nothing over the first layer of cells outside: where other membranes are near.
+/// Fraction 1 inside, decreasing to 0 over the first layer of cells outside; beside another vesicle or a wall.
 RigidPart rigid_in_cells(const Space& space, int vesicle);
 
 }  // namespace vehd::fem_check

@@ -18,7 +18,7 @@ struct Session::Implementation {
 };
 
 Session::Session() : implementation_(new Implementation) {
-  // OpenBLAS, if it is the BLAS of this machine, starts threads of its own under every small dense product.
+  // OpenBLAS, if installed as the BLAS, would start threads for every small dense product.
   using SetThreads = void (*)(int);
   if (void* symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<SetThreads>(symbol)(1);
 }

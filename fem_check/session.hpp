@@ -4,8 +4,8 @@
 
 namespace vehd::fem_check {
 
-/// MPI and the libraries under deal.II, from construction to destruction; one per process, first thing in main.
-/// Every rank runs on one thread. None of them sees the arguments of the program: PETSc would take them for its own.
+/// Initialises MPI and the libraries that deal.II uses, and finalises them on destruction; one per process, at the
+/// start of main. Every rank runs on one thread. The program's arguments are not passed on: PETSc would interpret them.
 class Session {
  public:
   Session();

@@ -6,23 +6,23 @@
 
 namespace vehd::fem_check {
 
-/// Velocities along a stress-free wall, whose component along the normal vanishes on it.
+/// Velocities along a stress-free wall: their component along the normal vanishes on it.
 class SlipWall {
  public:
-  /// @param tangential  preconditions the components along the wall, which are free there; has to live as long as this
+  /// @param tangential  preconditions the components along the wall, which are free there; must outlive this object
   /// @param fixed       constraints of the component along the normal
   SlipWall(const Space& space, const Multigrid& tangential, const Fixed& fixed, const ScalarForm& form);
 
-  /// Takes the component along the normal off on the wall.
+  /// Removes the component along the normal on the wall.
   void project(Blocks& velocity) const;
-  /// Multigrid for each component in the frame of the wall.
+  /// Applies multigrid to each component in the frame of the wall.
   void precondition(Blocks& to, const Blocks& from) const;
 
  private:
   const Multigrid& tangential_;
   Multigrid normal_component_;
   Matrix3 frame_;                // columns; the normal is the last one
-  std::vector<unsigned> nodes_;  // on the wall, local numbers
+  std::vector<unsigned> nodes_;  // on the wall; local numbers
 };
 
 }  // namespace vehd::fem_check

@@ -17,14 +17,14 @@ using meshes::FaceKind;
 
 UnitPoint unit_vertex(int vertex) { return {double(vertex & 1), double(vertex >> 1 & 1), double(vertex >> 2 & 1)}; }
 
-/// Number of deal.II's vertex that carries each vertex of the mesh's cell.
+/// Number of the vertex of deal.II's cell that is each vertex of the mesh's cell.
 std::array<int, 8> inverse(const std::array<int, 8>& mesh_vertex) {
   std::array<int, 8> result{};
   for (int v = 0; v < 8; ++v) result[mesh_vertex[v]] = v;
   return result;
 }
 
-/// The face on which the four corners lie.
+/// Face of the unit cell that contains the four corners.
 unsigned face_of(const std::array<UnitPoint, 4>& corners) {
   for (unsigned d = 0; d < 3; ++d) {
     const double first = corners[0][d];
@@ -47,7 +47,7 @@ void create_triangulation(Space& space) {
     std::copy_n(mesh.cell(c).vertices.begin(), 8, cells[c].vertices.begin());
     cells[c].material_id = static_cast<dealii::types::material_id>(mesh.cell(c).region);
   }
-  // deal.II turns cells until all edges agree in direction; cell by cell, which vertex went where is remembered.
+  // deal.II rotates cells until the directions of all edges agree; the new place of each vertex is stored.
   dealii::GridTools::consistently_order_cells(cells);
   space.mesh_vertex.resize(cells.size());
   for (int c = 0; c < mesh.n_cells(); ++c) {
@@ -229,7 +229,7 @@ std::vector<UnitPoint> unit_points(const Space& space, const SurfacePoints& poin
 
 namespace {
 
-/// Position, normal, direction and the area element in front of the weight, from the face coordinates.
+/// Computes position, normal, direction, and weights times the area element, from the face coordinates.
 void fill_geometry(const Space& space, SurfacePoints& points) {
   const Eigen::Index n = static_cast<Eigen::Index>(points.face.size());
   points.position.resize(3, n);

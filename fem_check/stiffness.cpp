@@ -6,15 +6,15 @@ namespace vehd::fem_check {
 
 namespace {
 
-/// Fields of the loops: with the ties and fixed values, and without.
+/// Fields of the loops: with and without constraints.
 constexpr unsigned tied_field = 0;
 constexpr unsigned untied_field = 1;
 
 /// Entries 00, 11, 22, 01, 02, 12 of a symmetric tensor.
 constexpr unsigned tensor_size = 6;
 
-/// Gauss weight times J⁻¹J⁻ᵀ at every point of every group of cells, so that ∫ ∇u·∇w = Σ ∂u·metric·∂w with derivatives
-/// by unit coordinates: six numbers to be read where J⁻¹ and the weight have ten.
+/// Gauss weight times J⁻¹J⁻ᵀ at every point of every group of cells: ∫ ∇u·∇w = Σ ∂u·metric·∂w with derivatives with
+/// respect to unit coordinates. Six numbers are read instead of the ten of J⁻¹ and the weight.
 dealii::AlignedVector<Lanes> metric_of(const CellLoops& loops, const CellKernel& kernel) {
   constexpr unsigned entries[tensor_size][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
   CellValues<1> u(loops, tied_field, kernel);
@@ -63,7 +63,7 @@ SheetPairs pairs_of(const Space& space, const dealii::DoFHandler<3>& handler) {
   return &handler == &space.dofs ? space.trace->pairs() : sheet_pairs(space, handler);
 }
 
-/// The membrane's and the outer sphere's part of a form.
+/// Terms of a form on the membrane and on the outer sphere.
 std::unique_ptr<SurfaceTerms> surface_terms(const Space& space, const dealii::DoFHandler<3>& handler,
                                             const Constraints& constraints, const SheetPairs& pairs,
                                             const OuterSphere& outer, const ScalarForm& form) {
@@ -85,7 +85,7 @@ std::unique_ptr<SurfaceTerms> surface_terms(const Space& space, const dealii::Do
     Eigen::SparseMatrix<double> mass =
         membrane_mass(space.trace->rule(), pairs, static_cast<int>(handler.get_fe().degree)) /
         (space.length * space.length);
-    // No entry has nodes of two membranes.
+    // No entry couples two membranes.
     for (Eigen::Index j = 0; j < n; ++j) mass.col(j) *= form.membrane[pairs.vesicle[static_cast<std::size_t>(j)]];
     add(mass, 1.0, 0, 0);
     add(mass, 1.0, n, n);
@@ -123,7 +123,7 @@ Constraints make_constraints(const Space& space, const dealii::DoFHandler<3>& ha
     for (const DofIndex dof : nodes_on(space.wall, space, handler)) constraints.add_line(dof);
   }
   if (fixed.outer_value && !constraints.is_constrained(outer_dofs.front())) constraints.add_line(outer_dofs.front());
-  // The first pair of a membrane is a corner of its first face, whatever the degree.
+  // The first pair of a membrane is a corner of its first face at every degree.
   for (const int vesicle : fixed.floating) constraints.add_line(pairs.first_of(vesicle)[0]);
   constraints.close();
   return constraints;

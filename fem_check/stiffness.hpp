@@ -15,26 +15,26 @@ struct ScalarForm {
   double robin = 0.0;
 };
 
-/// How the two values at each node of γ belong together.
+/// Coupling of the two values at each node of γ.
 enum class Tie { none, inner_follows_outer, outer_follows_inner };
 
-/// Homogeneous constraints: ties on γ, values on the outer sphere and on the wall that are given, and one value of a
-/// side that would float.
+/// Homogeneous constraints: ties on γ, given values on the outer sphere and the wall, and one value on each side whose
+/// constant would be undetermined.
 struct Fixed {
   PerVesicle<Tie> tie = Tie::none;
   bool outer = false;
   bool wall = false;
   bool outer_value = false;
-  std::vector<int> floating{};  ///< vesicles whose inside would float
+  std::vector<int> floating{};  ///< vesicles whose inside has an undetermined constant
 };
 Constraints make_constraints(const Space& space, const dealii::DoFHandler<3>& handler, const SheetPairs& pairs,
                              const std::vector<DofIndex>& outer_dofs, const Fixed& fixed);
 
-/// A scalar form on the elements of one handler as an operator: no matrix, the cells are integrated in every product.
-/// Rows of fixed and tied nodes are those of the identity.
+/// Matrix-free operator of a scalar form on the elements of one handler: every product integrates over the cells. Rows
+/// of fixed and tied nodes are those of the identity.
 class Stiffness : public dealii::Subscriptor {
  public:
-  /// @param handler   of scalar elements; has to live as long as this
+  /// @param handler   of scalar elements; must outlive this object
   /// @param n_points  Gauss points per direction and cell
   Stiffness(const Space& space, const dealii::DoFHandler<3>& handler, const Fixed& fixed, const ScalarForm& form,
             int n_points);
@@ -42,17 +42,17 @@ class Stiffness : public dealii::Subscriptor {
   void vmult(Distributed& to, const Distributed& from) const;
   void Tvmult(Distributed& to, const Distributed& from) const { vmult(to, from); }
   [[nodiscard]] DofIndex m() const { return handler_.n_dofs(); }
-  /// Chebyshev's polynomials would ask for entries if they were not given the diagonal.
+  /// Required by the Chebyshev preconditioner, which does not call it if given the diagonal.
   [[nodiscard]] static double el(DofIndex /*row*/, DofIndex /*column*/) {
     throw std::logic_error("no matrix is stored");
   }
   void initialize(Distributed& vector) const { loops_->initialize_dof_vector(vector); }
 
-  /// Adds scale · Σ coefficient ∫ ∇u·∇w for nodal values u known on all ranks, tied nodes as they are.
+  /// Adds scale · Σ coefficient ∫ ∇u·∇w for nodal values u given on all ranks, tied nodes as they are.
   void add_cells(Distributed& to, double scale, const dealii::Vector<double>& u) const;
   /// ∫ ∇u·∇w over one side for the trace functions w of that side: [pairs], on all ranks.
   [[nodiscard]] Vector flux_functional(const dealii::Vector<double>& u, Side side) const;
-  /// Adds values at nodes to the free degrees of freedom that stand for them.
+  /// Adds nodal values to the free degrees of freedom to which the nodes are tied.
   void add_at(Distributed& to, const std::vector<DofIndex>& dofs, const Vector& values) const;
   [[nodiscard]] Distributed inverse_diagonal() const;
 
@@ -65,7 +65,7 @@ class Stiffness : public dealii::Subscriptor {
   [[nodiscard]] const Space& space() const { return space_; }
 
  private:
-  /// Σ coefficient ∫ ∇u·∇w for all nodes of all ranks, tied nodes as they are.
+  /// Σ coefficient ∫ ∇u·∇w for all nodes, on all ranks, tied nodes as they are.
   [[nodiscard]] dealii::Vector<double> cell_product(const dealii::Vector<double>& u,
                                                     const dealii::AlignedVector<Lanes>& coefficient) const;
   [[nodiscard]] int degree() const { return static_cast<int>(handler_.get_fe().degree); }

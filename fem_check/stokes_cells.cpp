@@ -19,7 +19,7 @@ StokesCells::StokesCells(const Space& space, const dealii::DoFHandler<3>& pressu
   none_.close();
   loops_ = make_cell_loops(space, {{&space.dofs, &velocity_constraints}, {&pressure_dofs, &none_}},
                            points_per_direction(degree_));
-  // Of a contrast that is the same everywhere only a part on the outer sphere would be left: differences count.
+  // Only differences matter: a contrast that is equal everywhere would leave only a term on the outer sphere.
   contrast_outside_ = 0.0;
   for (const double inside : viscosity_inside.values()) contrast_outside_ = std::max(contrast_outside_, 1.0 - inside);
   const auto on_each = [&](const auto& of_viscosity) {

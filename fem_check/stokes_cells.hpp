@@ -4,22 +4,22 @@
 
 namespace vehd::fem_check {
 
-/// The cells' part of the Stokes operator and of the pressure mass: velocity components in field 0 of the loops,
+/// Cell integrals of the Stokes operator and of the pressure mass: velocity components in field 0 of the loops,
 /// pressure of one degree less in field 1.
 class StokesCells {
  public:
-  /// Viscosities over that of the outside; what each is more than the smallest of them multiplies ∇u:∇wᵀ.
+  /// Viscosities are relative to that of the outside; their excess over the smallest one multiplies ∇u:∇wᵀ.
   StokesCells(const Space& space, const dealii::DoFHandler<3>& pressure_dofs, const Constraints& velocity_constraints,
               const PerVesicle<double>& viscosity_inside);
 
-  /// The part of the outside.
+  /// Excess of the outside.
   [[nodiscard]] double contrast_outside() const { return contrast_outside_; }
 
   /// u_x, u_y, u_z, p
   using Parts = std::vector<Distributed*>;
-  /// to = the operator's product with from.
+  /// to = Stokes operator times from.
   void apply(const Parts& to, const Parts& from) const;
-  /// to = −∫ q div u, the pressure's part of that product.
+  /// to = −∫ q div u, the pressure block of that product.
   /// @param from  u_x, u_y, u_z
   void apply_divergence(Distributed& to, const Parts& from) const;
   /// to = ∫ p q/μ

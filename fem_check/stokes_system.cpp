@@ -13,10 +13,10 @@ namespace vehd::fem_check {
 
 namespace {
 
-/// The velocities of both sides are one. On a wall without slip all components vanish, on a stress-free one that along
-/// its normal.
+/// The velocity is continuous across γ. On a no-slip wall all components vanish, on a stress-free one the normal
+/// component.
 Fixed fixed_nodes(bool wall) { return {.tie = Tie::inner_follows_outer, .wall = wall}; }
-/// −p n + μ ∂u/∂r = −(4μ/R) u of a stresslet; the preconditioner has it for every flow on the outer sphere.
+/// −p n + μ ∂u/∂r = −(4μ/R) u for a stresslet; the preconditioner uses it for every flow on the outer sphere.
 constexpr double kOuterCoefficient = 4.0;
 
 void require_valid(const Discretisation& discretisation, const Viscosities& viscosities) {
@@ -34,7 +34,7 @@ void require_valid(const Discretisation& discretisation, const Viscosities& visc
 }
 
 void require_valid(const VectorOnSurface& force, const Matrix3& gradient) {
-  // Far above the rounding of a sum of three numbers.
+  // Well above the rounding error of a sum of three numbers.
   if (std::abs(gradient.trace()) > 1e-12 * gradient.norm()) {
     throw std::invalid_argument("the background flow has divergence " + std::to_string(gradient.trace()) +
                                 "; an incompressible fluid has none");
@@ -42,8 +42,8 @@ void require_valid(const VectorOnSurface& force, const Matrix3& gradient) {
   if (!force) throw std::invalid_argument("the force of the membrane is missing");
 }
 
-/// The condition on the outer sphere for all components. ∇u:∇wᵀ outside brings (∇u)ᵀn there, which is not part of the
-/// condition; with div u = 0 it is a surface operator, taken off here.
+/// Condition on the outer sphere for all components. The term ∇u:∇wᵀ outside adds (∇u)ᵀn on it, which is not part of
+/// the condition; since div u = 0 it is a surface operator, subtracted here.
 SurfaceTerms outer_terms(const Stiffness& diffusion, double contrast_outside) {
   const OuterSphere& sphere = diffusion.outer();
   std::vector<ComponentCoupling> couplings;
@@ -60,7 +60,7 @@ SurfaceTerms outer_terms(const Stiffness& diffusion, double contrast_outside) {
           std::move(couplings)};
 }
 
-/// ∫ p q/μ as Chebyshev's polynomials want it.
+/// ∫ p q/μ with the interface of the Chebyshev preconditioner.
 class PressureMass : public dealii::Subscriptor {
  public:
   PressureMass(const StokesCells& cells, DofIndex size) : cells_(cells), size_(size) {}
@@ -102,11 +102,11 @@ struct StokesSystem::Implementation {
   std::vector<unsigned> tied;  // local numbers
   PressureMass pressure_mass;
   PressureInverse pressure_inverse;
-  /// Rigid rotations of every inside that is stiffer than the outside, which it does not resist but μ∇u:∇w does; and
-  /// the inverse of their energies.
+  /// Rigid rotations of every inside that is more viscous than the outside: it does not resist them, but μ∇u:∇w does.
+  /// And the inverse matrix of their energies.
   std::vector<std::array<Distributed, 3>> rotations;
   Eigen::MatrixXd rotation_inverse;
-  /// The pressure 1 in one inside, whose share in the Schur complement is that of the stiffer outside.
+  /// The constant pressure in one inside, whose part of the Schur complement is that of the more viscous outside.
   struct InnerPressure {
     Distributed values;
     double factor;
@@ -115,7 +115,7 @@ struct StokesSystem::Implementation {
 
   Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities, WallFlow wall_flow);
   [[nodiscard]] ScalarForm diffusion_form() const { return {ratio, 1.0, 0.0, kOuterCoefficient}; }
-  /// Adds those of one vesicle.
+  /// Adds the rotations of one vesicle.
   void add_rotations(const StokesSystem& system, int vesicle);
   void find_rotation_energies(const StokesSystem& system);
   void add_inner_pressure(int vesicle);
@@ -264,7 +264,7 @@ Blocks StokesSystem::load(const VectorOnSurface& force, const Matrix3& gradient)
   const Space& place = space();
   const SurfacePoints& rule = place.trace->rule();
   const Viscosities& viscosity = implementation_->viscosity;
-  // The background flow has a traction jump of its own where viscosities differ.
+  // If viscosities differ, the background flow itself has a traction jump.
   Vectors traction = force(rule);
   for (Eigen::Index i = 0; i < rule.size(); ++i) {
     const double difference = viscosity.inside[rule.vesicle[i]] - viscosity.outside;
@@ -280,7 +280,7 @@ Blocks StokesSystem::load(const VectorOnSurface& force, const Matrix3& gradient)
 }
 
 void StokesSystem::vmult(Blocks& to, const Blocks& from) const {
-  // The loops exchange values with other ranks, for which they keep space in the vectors that they read.
+  // The loops exchange values with other ranks and store them in the ghost entries of the vectors that they read.
   auto& source = const_cast<Blocks&>(from);
   const StokesCells::Parts to_parts{&to.block(0), &to.block(1), &to.block(2), &to.block(3)};
   const StokesCells::Parts from_parts{&source.block(0), &source.block(1), &source.block(2), &source.block(3)};
@@ -292,7 +292,7 @@ void StokesSystem::vmult(Blocks& to, const Blocks& from) const {
   for (unsigned d = 0; d < 3; ++d) {
     for (const unsigned dof : implementation_->tied) to.block(d).local_element(dof) = from.block(d).local_element(dof);
   }
-  // A solver that starts with a flow along the wall leaves it nowhere: what the preconditioner gives is along it too.
+  // The preconditioner returns flows along the wall, so a solver that starts from one stays among them.
   if (implementation_->slip) implementation_->slip->project(to);
 }
 

@@ -13,14 +13,14 @@ namespace {
 
 using meshes::CellShape;
 
-/// Unit point of the inner cell at coordinates of a face.
+/// Unit point of the inner cell at given face coordinates.
 meshes::Point inner_unit(const meshes::InterfacePair& pair, double s, double t) {
   const auto& vertices = meshes::face_vertices(CellShape::hexahedron, pair.inside_face);
   const auto corner = [&](int k) { return meshes::unit_vertex(CellShape::hexahedron, vertices[k]); };
   return (1 - s) * (1 - t) * corner(0) + s * (1 - t) * corner(1) + (1 - s) * t * corner(2) + s * t * corner(3);
 }
 
-/// +1 where t_1 × t_2 of a face points outwards.
+/// +1 if t_1 × t_2 of a face points outwards, otherwise −1.
 double orientation(const meshes::VolumeMesh& mesh, const meshes::InterfacePair& pair) {
   const meshes::Point middle = inner_unit(pair, 0.5, 0.5);
   const Matrix3 jacobian = mesh.jacobian(pair.inside_cell, middle);
@@ -30,7 +30,7 @@ double orientation(const meshes::VolumeMesh& mesh, const meshes::InterfacePair& 
   return first.cross(second).dot(image(middle - meshes::Point::Constant(0.5))) > 0.0 ? 1.0 : -1.0;
 }
 
-/// What a node is shared by: a vertex, or an edge from its vertex of the lower number on.
+/// Identifies a shared node: a vertex, or a position on an edge counted from its vertex with the lower number.
 struct SharedPlace {
   int low, high, step;
   auto operator<=>(const SharedPlace&) const = default;
@@ -78,7 +78,7 @@ FaceNodes::FaceNodes(const meshes::VolumeMesh& mesh, int degree) : degree_(degre
 }
 
 FaceShape face_shape(int degree, const Eigen::Matrix2Xd& points) {
-  // Products of polynomials of one coordinate.
+  // Tensor products of polynomials in one coordinate.
   const auto line = edge_polynomials(static_cast<unsigned>(degree));
   const auto n_line = static_cast<Eigen::Index>(line.size()), n = n_line * n_line;
   FaceShape result{Eigen::MatrixXd(points.cols(), n),

@@ -9,10 +9,10 @@ namespace vehd::fem_check {
 namespace {
 
 constexpr unsigned most_steps = 200;
-/// Of the residual, which conjugate gradients know by a recursion that rounding does not stop.
+/// Relative residual in the recursion of conjugate gradients, which rounding does not limit.
 constexpr double reduction = 1e-16;
 
-/// Three components of a nodal field in a row.
+/// Three components per node of a nodal field, contiguous.
 using NodalValues = dealii::Vector<double>;
 
 }  // namespace

@@ -4,18 +4,17 @@
 
 namespace vehd::fem_check {
 
-/// The nodal field u with given products with the nodal functions, ∫ u·φ dA = F[φ], on a surface with given positions.
-/// By conjugate gradients without a matrix: of functions of degree 15 it would take as much memory as everything in the
-/// volume, while some thirty steps suffice whatever the degree, as functions on Gauss–Lobatto points are nearly
-/// orthogonal.
+/// Nodal field u with given ∫ u·φ dA = F[φ] for every nodal function φ, on a surface with given positions. Uses
+/// matrix-free conjugate gradients: a matrix for degree 15 would need as much memory as all data of the volume, whereas
+/// about thirty steps suffice at any degree, since nodal functions of Gauss–Lobatto points are nearly orthogonal.
 class SurfaceProjection {
  public:
-  /// @param nodes  of the functions, of a degree up to that of the surface
+  /// @param nodes  of the functions, of at most the degree of the surface
   SurfaceProjection(const SurfaceElements& surface, const Vectors& positions, const FaceNodes& nodes);
 
   /// @param functional  F for φ e_d in row d, [3 x nodes]
   /// @return            u at the nodes, [3 x nodes], to rounding
-  /// @throws SolveError if that is not reached
+  /// @throws SolveError if the iteration does not converge
   [[nodiscard]] Vectors solve(const Vectors& functional) const;
 
  private:

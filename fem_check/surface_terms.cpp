@@ -10,7 +10,7 @@ namespace vehd::fem_check {
 
 namespace {
 
-/// Point of a face of the unit cell in deal.II's numbering.
+/// Point on a face of the unit cell, in deal.II's numbering.
 UnitPoint on_unit_face(unsigned face, double s, double t) {
   const unsigned axis = face / 2;
   UnitPoint result;
@@ -26,7 +26,7 @@ std::vector<UnitPoint> on_unit_face(unsigned face, const Eigen::Matrix2Xd& point
   return result;
 }
 
-/// Numbers in the cell of the nodes on a face, lattice with the first coordinate fastest.
+/// Numbers in the cell of the nodes on a face, as a lattice with the first coordinate fastest.
 std::vector<unsigned> nodes_on(unsigned face, const dealii::FiniteElement<3>& element) {
   const std::vector<UnitPoint>& nodes = element.get_unit_support_points();
   std::vector<unsigned> result;
@@ -38,7 +38,7 @@ std::vector<unsigned> nodes_on(unsigned face, const dealii::FiniteElement<3>& el
   return result;
 }
 
-/// Calls visit(face, nodes of the handler on it) for each face; nodes as nodes_on(face).
+/// Calls visit(face, degrees of freedom on it) for each face, in the order of nodes_on(face).
 template <typename Visit>
 void for_each_face(const std::vector<OuterFace>& faces, const Space& space, const dealii::DoFHandler<3>& handler,
                    const Visit& visit) {
@@ -54,7 +54,7 @@ void for_each_face(const std::vector<OuterFace>& faces, const Space& space, cons
   }
 }
 
-/// Of the nodes of the geometry on a face, without unit.
+/// Dimensionless positions of the nodes of the geometry on a face.
 Vectors geometry_nodes(const Space& space, const OuterFace& face) {
   std::vector<meshes::Point> units;
   for (const UnitPoint& unit :
@@ -203,7 +203,7 @@ SurfaceTerms::SurfaceTerms(const Space& space, const dealii::DoFHandler<3>& hand
 
 namespace {
 
-/// A column times a vector. Four sums at once: each addition to a single one would wait for the one before.
+/// Product of a column and a vector. Uses four partial sums, as additions to a single one would wait for each other.
 double column_times(const Eigen::SparseMatrix<double>& matrix, Eigen::Index column, const double* x) {
   constexpr int n_sums = 4;
   const double* values = matrix.valuePtr();
@@ -233,7 +233,7 @@ void SurfaceTerms::add(const std::vector<Distributed*>& to, const std::vector<co
   for (const std::size_t i : own_) {
     const auto row = static_cast<Eigen::Index>(i);
     for (std::size_t c = 0; c < to.size(); ++c) {
-      // Of a symmetric matrix columns are rows.
+      // In a symmetric matrix, columns are rows.
       (*to[c])(dofs_[i]) += column_times(matrix_, row, values.col(static_cast<Eigen::Index>(c)).data());
     }
     for (const OneWay& coupling : couplings_) {
@@ -258,7 +258,7 @@ dealii::Vector<double> on_all_ranks(const Distributed& vector, MPI_Comm communic
 
 namespace {
 
-/// Functions of an edge of one degree at the nodes of another: [nodes x functions].
+/// Nodal functions of one degree along an edge at the nodes of another one: [nodes x functions].
 Eigen::MatrixXd at_edge_nodes(unsigned degree, unsigned degree_of_nodes) {
   const auto line = edge_polynomials(degree);
   const std::vector<double> nodes = edge_nodes(degree_of_nodes);
@@ -278,7 +278,7 @@ void interpolate(const dealii::DoFHandler<3>& from, const dealii::Vector<double>
   const unsigned degree_from = from.get_fe().degree, degree_to = to_handler.get_fe().degree;
   const Eigen::MatrixXd along_edge = at_edge_nodes(degree_from, degree_to);
   const Eigen::Index n = along_edge.rows(), m = along_edge.cols();
-  // First coordinate fastest.
+  // Lexicographic numbering, first coordinate fastest.
   const auto numbers_from = dealii::FETools::lexicographic_to_hierarchic_numbering<3>(degree_from),
              numbers_to = dealii::FETools::lexicographic_to_hierarchic_numbering<3>(degree_to);
   dealii::Vector<double> values(from.get_fe().n_dofs_per_cell());

@@ -11,7 +11,7 @@ namespace vehd::fem_check {
 namespace {
 
 double curvature_variation(const meshes::VolumeMesh& mesh) {
-  // High enough that what is left on a sphere is far below what counts as a variation.
+  // High enough that the error on a sphere is far below the smallest significant variation.
   constexpr int degree = 8;
   const BendingElements elements(mesh, degree);
   const SurfaceElements& surface = elements.surface();
@@ -87,7 +87,7 @@ TensionPreconditioner::TensionPreconditioner(const TensionElements& elements, do
             1.0 / (elements.radius() * elements.radius()),
             elements.largest_eigenvalue() + 1.0 / (elements.radius() * elements.radius()), share) {
   const double variation = elements.variation_of_curvature();
-  // The root takes the mass of a constant to the constant times R.
+  // The root maps the mass of a constant to the constant times R.
   if (!constant_is_free && share.number == 0) {
     of_constant_ = scale_ * elements.radius() / mass_of_one_.sum() * (1.0 / (variation * variation) - 1.0);
   }
@@ -97,7 +97,7 @@ Vector TensionPreconditioner::apply(const Vector& residual) const {
   if (!constant_is_free_) {
     return scale_ * root_.apply(residual) + Vector::Constant(residual.size(), of_constant_ * residual.sum());
   }
-  // Projected on both sides, so that it stays symmetric: no tension of mean other than zero is ever tried.
+  // Projected on both sides to keep it symmetric: the mean of every tension in the iteration is zero.
   const double area = mass_of_one_.sum();
   const Vector result = scale_ * root_.apply(residual - mass_of_one_ * (residual.sum() / area));
   return result - Vector::Constant(result.size(), mass_of_one_.dot(result) / area);

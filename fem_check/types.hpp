@@ -24,20 +24,20 @@ class SolveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A point that lies in no cell: beyond the outer sphere.
+/// A point that lies in no cell, for example beyond the outer sphere.
 class LocationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Points of γ in the curved mesh, the points of one membrane face in a row.
+/// Points of γ in the curved mesh; those of one membrane face are contiguous.
 struct SurfacePoints {
   Vectors position;
   Vectors normal;                     ///< outward unit normal of the mesh
   Vectors direction;                  ///< r̂(θ, φ) of the parametrisation x(θ, φ)
-  Vector weight;                      ///< ∫ f dA = Σ f weight; zero where the points are no quadrature rule
+  Vector weight;                      ///< ∫ f dA = Σ f weight; zero if the points are no quadrature rule
   std::vector<int> face;              ///< number of the membrane face
-  std::vector<int> vesicle;           ///< of each point
+  std::vector<int> vesicle;           ///< number of the vesicle
   Eigen::Matrix2Xd face_coordinates;  ///< in [0, 1]² of that face
 
   [[nodiscard]] Eigen::Index size() const { return position.cols(); }
@@ -45,17 +45,17 @@ struct SurfacePoints {
   [[nodiscard]] Vector theta() const;
   /// φ of each point, [size()].
   [[nodiscard]] Vector phi() const;
-  /// Numbers of the points on one membrane.
+  /// Indices of the points on one membrane.
   [[nodiscard]] std::vector<Eigen::Index> of_vesicle(int number) const;
-  /// Some of the points.
+  /// Selection of the points.
   [[nodiscard]] SurfacePoints picked(const std::vector<Eigen::Index>& numbers) const;
 };
 
-/// Points of the volume with the cell that each lies in.
+/// Points of the volume, each with the cell that contains it.
 struct VolumePoints {
   Vectors position;
   std::vector<int> cell;
-  std::vector<bool> inside;  ///< in the interior of the vesicle
+  std::vector<bool> inside;  ///< in the interior of a vesicle
   Vectors unit;              ///< coordinates in the unit cell
 
   [[nodiscard]] Eigen::Index size() const { return position.cols(); }
@@ -65,21 +65,21 @@ struct VolumePoints {
 using ScalarOnSurface = std::function<Vector(const SurfacePoints&)>;
 using VectorOnSurface = std::function<Vectors(const SurfacePoints&)>;
 
-/// Largest degree of the spherical harmonics on the outer sphere whose exterior fields a solution has exactly. What is
-/// left of the next one returns to a membrane that reaches out to a as (a/R)^17 of it, R the radius of the sphere.
+/// Largest degree of the spherical harmonics on the outer sphere for which the exterior condition is exact. The error
+/// from the next degree is reduced by (a/R)^17 at a membrane that reaches out to a, R the radius of the sphere.
 constexpr int usual_exterior_degree = 8;
 
-/// Cost of a solution. Peak memory is that of the process up to its end, on this rank.
+/// Cost of a solution. Peak memory is that of the process on this rank until the end of the solution.
 struct Cost {
   int n_cells = 0;
   long n_unknowns = 0;
   int iterations = 0;
-  /// Size of the residual over that of the right-hand side, both as the preconditioner measures energies: about the
-  /// relative error of the energy that the linear solver leaves.
+  /// Residual over right-hand side in the norm of the preconditioner: approximately the relative error in the energy
+  /// norm that the linear solver leaves.
   double solver_error = 0.0;
   double seconds_setup = 0.0;  ///< triangulation, mapping and numbering
   double seconds_assembly = 0.0;
-  double seconds_solve = 0.0;  ///< preconditioner included
+  double seconds_solve = 0.0;  ///< including the preconditioner
   std::size_t peak_memory_bytes = 0;
 };
 

@@ -6,7 +6,7 @@
 namespace vehd::meshes {
 namespace {
 
-/// Least extent of the membrane along one axis over the two blocks that this axis cuts.
+/// Smallest extent of the membrane along one axis over the two blocks that the axis cuts.
 double room_along(const FrozenShape& shape, const Point& centre, const BlockAxes& axes, int axis) {
   constexpr int kSamples = 17;
   double room = std::numeric_limits<double>::max();
@@ -21,7 +21,7 @@ double room_along(const FrozenShape& shape, const Point& centre, const BlockAxes
       }
     }
   }
-  // No room at all: some width is needed to go on, and the quality of the elements tells whether it was good.
+  // If there is no room, any width will do: the quality of the elements decides whether the mesh is used.
   return std::max(room, 0.05 * shape.radius());
 }
 

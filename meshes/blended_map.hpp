@@ -4,12 +4,12 @@
 
 namespace vehd::meshes {
 
-/// Straight lines from the core to the membrane and on to the outer sphere:
+/// A map along straight lines from the core to the membrane and on to the outer sphere:
 ///   core:   centre + K X/½
 ///   blend:  from centre + K v at s = ½ to x(r̂) at s = 1, linear in s
 ///   shell:  from x(r̂) at s = 1 to centre + R U g/|g| at s = 2, linear in s
-/// K = U diag(half-widths) squashes the core into the room that the shape leaves along each axis. Right for whatever is
-/// no more than stretched; a bowl folds it.
+/// K = U diag(half-widths) fits the core into the room that the shape leaves along each axis. Suited to shapes that are
+/// little more than stretched spheres; a bowl folds the map.
 class BlendedMap final : public BlockMap {
  public:
   /// @throws MeshError if the outer sphere does not hold the shape

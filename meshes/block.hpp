@@ -6,8 +6,8 @@ namespace vehd::meshes {
 struct Block {
   enum class Layer { core, blend, shell };
   Layer layer;
-  int axis;     ///< the coordinate axis that cuts the block's face of the cube; means nothing in the core
-  double sign;  ///< +1 or −1: on which side
+  int axis;     ///< coordinate axis that cuts the block's face of the cube; unused in the core
+  double sign;  ///< +1 or −1: the side of the cube
 };
 
 }  // namespace vehd::meshes

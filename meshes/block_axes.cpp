@@ -15,9 +15,9 @@
 namespace vehd::meshes {
 namespace {
 
-/// Ratio of two stretches from which on they count as different.
+/// Stretches differ if their ratio is at least this.
 constexpr double kMarked = 1.05;
-/// Beyond the half-angle π/8 about an axis of the cube another of its orientations is nearer: tan(π/8).
+/// tan(π/8): beyond the half-angle π/8 about an axis, another orientation of the cube is nearer.
 constexpr double kLargestTurn = std::numbers::sqrt2 - 1.0;
 
 struct PrincipalAxes {
@@ -66,7 +66,7 @@ Matrix3 rotation_of(const Point& rodrigues) {
   return Eigen::Quaterniond(1.0, rodrigues.x(), rodrigues.y(), rodrigues.z()).normalized().toRotationMatrix();
 }
 
-/// Components of r that a turn may have: those about axes across which the stretches are equal.
+/// Components of r that a rotation can have: those about axes across which the stretches are equal.
 std::array<bool, 3> free_components(const std::array<double, 3>& stretch) {
   std::array<bool, 3> result;
   for (int k = 0; k < 3; ++k) {
@@ -76,7 +76,7 @@ std::array<bool, 3> free_components(const std::array<double, 3>& stretch) {
   return result;
 }
 
-/// Rotations r on a grid of the region where no symmetry of the cube brings r closer to 0: |r_k| ≤ √2 − 1, Σ|r_k| ≤ 1.
+/// Grid of rotations r that no symmetry of the cube brings closer to 0: |r_k| ≤ √2 − 1, Σ|r_k| ≤ 1.
 std::vector<Point> grid_of_turns(const std::array<bool, 3>& free) {
   constexpr int kSteps = 2;
   std::vector<Point> result;
@@ -122,11 +122,11 @@ Eigen::VectorXd highest_mode(const GaussRule& rule) {
   return result;
 }
 
-/// Nodes of a face in each direction at which a field is taken: the part of one degree below is looked for.
+/// Nodes per direction of a face; the part of degree kNodes − 1 is measured.
 constexpr int kNodes = 7;
 
-/// Root mean square over all faces of the part of a field of degree 6 in a face coordinate.
-/// @param values  [components x points], points as face_points() has them
+/// Root mean square over all faces of the part of a field that has degree 6 in a face coordinate.
+/// @param values  [components x points], in the order of face_points()
 double part_of_highest_degree(const Eigen::MatrixXd& values, const GaussRule& rule) {
   const Eigen::VectorXd mode = highest_mode(rule);
   const Eigen::Map<const Eigen::VectorXd> weight(rule.weight.data(), kNodes);
@@ -172,7 +172,7 @@ BlockAxes axes_along(const FrozenShape& shape, const Matrix3& in_directions) {
 BlockAxes principal_axes(const FrozenShape& shape) { return find_principal_axes(shape.affine_part()).axes; }
 
 BlockAxes best_axes(const FrozenShape& shape) {
-  /// Share of the error that one turn must gain on another, and that the best must gain on none.
+  /// Smallest relative reduction of the error for which one rotation is preferred to another (kTie), or to none.
   constexpr double kTie = 1e-3;
   constexpr double kClearGain = 0.05;
   constexpr double kFinestStep = 0.02;

@@ -10,10 +10,10 @@ namespace vehd::meshes {
 
 /// The map from reference coordinates X to space that gives a block mesh its geometry.
 ///
-/// Reference space is three nested cubes |X|_∞ = ½ (core), 1 (membrane γ), 2 (outer sphere). A face of the cube with
-/// s = |X|_∞ and v = X/s belongs to the direction r̂ = V g/|g|, g_k = tan(π v_k/4): equal angles along block edges.
-/// Every map takes s = 1 to x(r̂) and s = 2 to centre + R U g/|g|, U and V the BlockAxes; in between kinds of map
-/// differ.
+/// Reference space consists of three nested cubes |X|_∞ = ½ (core), 1 (membrane γ), 2 (outer sphere). A point of a cube
+/// face with s = |X|_∞ and v = X/s has the direction r̂ = V g/|g|, g_k = tan(π v_k/4): equal angles along block edges.
+/// Every map takes s = 1 to x(r̂) and s = 2 to centre + R U g/|g|, with U and V of BlockAxes; derived classes define
+/// the map in between.
 class BlockMap {
  public:
   static constexpr double kCore = 0.5;
@@ -29,16 +29,16 @@ class BlockMap {
   [[nodiscard]] const Point& centre() const { return centre_; }
   [[nodiscard]] double outer_radius() const { return outer_radius_; }
 
-  /// Block that holds a point in its interior. A point of several blocks lies on each of them: the other functions
-  /// take the formulas of the block that they are given.
+  /// Block that contains a point in its interior. A point shared by several blocks belongs to each of them; the other
+  /// functions therefore take the block whose formulas they use.
   [[nodiscard]] static Block block_at(const Point& reference);
 
-  /// g/|g| on the face of the cube that `axis` and `sign` name; its other coordinates v follow the axis cyclically.
+  /// g/|g| on the cube face given by `axis` and `sign`; its other two coordinates v follow the axis cyclically.
   [[nodiscard]] static Point cube_direction(int axis, double sign, double first, double second);
   /// r̂(X); X ≠ 0.
   [[nodiscard]] Point direction(const Block& block, const Point& reference) const;
   [[nodiscard]] Point position(const Block& block, const Point& reference) const;
-  /// Many columns at once, all of one block.
+  /// Positions of many points of one block, one per column.
   [[nodiscard]] Eigen::Matrix3Xd positions(const Block& block, const Eigen::Matrix3Xd& reference) const;
   /// ∂ position/∂X.
   [[nodiscard]] virtual Matrix3 derivative(const Block& block, const Point& reference) const = 0;
@@ -51,7 +51,7 @@ class BlockMap {
     Point g;
   };
   [[nodiscard]] static CubePoint cube_point(const Block& block, const Point& reference);
-  /// Their derivatives by X, with that of g/|g|.
+  /// Their derivatives with respect to X, and that of g/|g|.
   struct CubeSlopes {
     Point s;
     Matrix3 v;
@@ -65,7 +65,7 @@ class BlockMap {
 
  private:
   [[nodiscard]] virtual Point in_core(const Point& reference) const = 0;
-  /// Position outside the core, where x(r̂) is known already.
+  /// Position outside the core, given x(r̂).
   [[nodiscard]] virtual Point around_core(const Block& block, const Point& reference,
                                           const Point& on_membrane) const = 0;
 
@@ -75,11 +75,11 @@ class BlockMap {
   BlockAxes axes_;
 };
 
-/// Growth of the layers of the shell of a shape of this radius.
+/// Thickness of a shell layer over that of the next one inwards, for a shape of this radius.
 double shell_growth(const BlockMeshOptions& options, double radius);
 
-/// Vertices, cells and interface of the reference mesh, made by gmsh: 13 transfinite blocks. The third unit coordinate
-/// of every blend and shell cell points outwards.
+/// Vertices, cells and interface of the reference mesh, made by gmsh from 13 transfinite blocks. The third unit
+/// coordinate of every blend and shell cell points outwards.
 /// @throws MeshError if the mesher fails
 MeshTopology make_block_topology(const BlockMeshOptions& options, double shell_growth);
 

@@ -13,7 +13,7 @@
 namespace vehd::meshes {
 namespace {
 
-/// Geometry entities of the block mesh; lines and surfaces are made when first asked for and shared afterwards.
+/// Geometry entities of the block mesh; lines and surfaces are created at first use and shared afterwards.
 class BlockModel {
  public:
   int point(const Point& x) { return gmsh::model::geo::addPoint(x.x(), x.y(), x.z()); }
@@ -28,7 +28,7 @@ class BlockModel {
     return tag;
   }
 
-  /// Quadrilateral through four points, whose lines exist.
+  /// Quadrilateral through four points whose lines exist.
   int surface(std::array<int, 4> corners) {
     std::array<int, 4> key = corners;
     std::sort(key.begin(), key.end());
@@ -59,7 +59,7 @@ class BlockModel {
   std::map<std::array<int, 4>, int> surfaces_;
 };
 
-/// Corners, as numbers 0 … 7 with bit k for coordinate k, of a cube face in cyclic order.
+/// Corners of a cube face in cyclic order, as numbers 0 … 7 with bit k for coordinate k.
 std::array<int, 4> face_corners(int axis, int side) {
   const int first = 1 << ((axis + 1) % 3);
   const int second = 1 << ((axis + 2) % 3);
@@ -71,7 +71,7 @@ std::array<int, 4> pick(const std::array<int, 8>& points, const std::array<int, 
   return {points[corners[0]], points[corners[1]], points[corners[2]], points[corners[3]]};
 }
 
-/// The 13 volumes; returns their tags.
+/// Builds the 13 volumes and returns their tags.
 std::vector<int> build_blocks(const BlockMeshOptions& options, double shell_growth) {
   BlockModel model;
   std::array<std::array<int, 8>, 3> cubes;
@@ -104,8 +104,8 @@ std::vector<int> build_blocks(const BlockMeshOptions& options, double shell_grow
   return volumes;
 }
 
-/// Coordinates that run along the edges of a cell: X itself in the core, else two coordinates across and the radial
-/// one, right-handed.
+/// Coordinates along the edges of a cell, right-handed: X itself in the core, otherwise two coordinates across and the
+/// radial one.
 Point block_coordinates(const Block& block, const Point& x) {
   if (block.layer == Block::Layer::core) return x;
   const double s = block.sign * x[block.axis];
@@ -114,7 +114,7 @@ Point block_coordinates(const Block& block, const Point& x) {
   return block.sign > 0.0 ? Point(first, second, s) : Point(second, first, s);
 }
 
-/// Puts the vertices in lexicographic order of the block coordinates, whatever order gmsh chose.
+/// Sorts the vertices lexicographically in the block coordinates; gmsh's order varies.
 std::array<int, 8> ordered(const std::vector<Point>& vertices, const std::array<int, 8>& cell, const Block& block) {
   Point middle = Point::Zero();
   for (const int v : cell) middle += block_coordinates(block, vertices[v]) / 8.0;
@@ -131,7 +131,7 @@ std::array<int, 8> ordered(const std::vector<Point>& vertices, const std::array<
   return result;
 }
 
-/// gmsh's nodes on cube faces are exact up to rounding; here they become exact.
+/// Removes the rounding errors of gmsh's nodes on cube faces.
 Point snapped(Point x) {
   for (double& value : x) {
     for (const double plane : {BlockMap::kMembrane, BlockMap::kOuter}) {
@@ -156,7 +156,7 @@ std::array<FaceKind, 6> face_kinds(const std::vector<Point>& vertices, const Mes
   return result;
 }
 
-/// Vertices in the order of gmsh's tags, with the tag of each.
+/// Reads the vertices in the order of gmsh's tags; returns the number of each tag.
 std::unordered_map<std::size_t, int> read_vertices(std::vector<Point>& vertices) {
   std::vector<std::size_t> tags;
   std::vector<double> x;

@@ -15,10 +15,10 @@
 namespace vehd::meshes {
 namespace {
 
-/// Angle on the cube over a coordinate of a face: g = tan(π v/4).
+/// Factor of a face coordinate in g = tan(π v/4).
 constexpr double kAngle = 0.25 * std::numbers::pi;
 
-/// Ends of points along the columns of `axes`.
+/// Extent of points along the columns of `axes`.
 struct Extent {
   Point low, high;
 };
@@ -34,7 +34,7 @@ Slopes unit_slopes(const Point& u, const Slopes& slopes) {
   return (slopes - unit * (unit.transpose() * slopes)) / u.norm();
 }
 
-/// The wall as the plane between a shape and its mirror image, with half of the slab between them.
+/// The wall as the plane between a shape and its mirror image, with the gap: half the slab between them.
 SeparatingPlane plane_beside(const FrozenShape& shape, const Wall& wall) {
   const double gap = gap_to(wall, shape);
   if (gap > 0.0) return {-wall.normal, -wall.normal.dot(wall.point), gap};
@@ -43,8 +43,8 @@ SeparatingPlane plane_beside(const FrozenShape& shape, const Wall& wall) {
 
 }  // namespace
 
-/// The third axis is the normal of the plane; the others follow what the shapes are stretched along across it, or, if
-/// that is nothing, the coordinate axis that lies most across.
+/// The third axis is the normal of the plane. The first one is the direction across it in which the shapes are longest
+/// or, if there is none, the projection of the coordinate axis that is most nearly perpendicular to the normal.
 Matrix3 BoxMap::axes_along(const Point& normal, const std::vector<FrozenShape>& shapes) {
   constexpr double kMarked = 1.02;
   Eigen::Index least = 0;
@@ -66,7 +66,7 @@ Matrix3 BoxMap::axes_along(const Point& normal, const std::vector<FrozenShape>& 
   return axes;
 }
 
-/// As large as every ray through the membrane leaves room for.
+/// `fraction` times the largest box of these proportions about the centroid that fits inside the membrane.
 Matrix3 BoxMap::core_of(const Box& box, const Matrix3& widths, double fraction) {
   const Eigen::Matrix3Xd points = surface_samples(box.shape).colwise() - box.shape.centroid();
   const Eigen::Matrix3Xd scaled = widths.inverse() * points;
@@ -88,7 +88,7 @@ BoxMap::BoxMap(const std::vector<FrozenShape>& shapes, const SeparatingPlane& pl
     extents.push_back(extent_along(axes, surface_samples(shape)));
     radius = std::max(radius, shape.radius());
   }
-  // A box about a vesicle that is far from its wall is as wide as it is long.
+  // Far from its wall, a vesicle has a box as wide as it is long.
   const double margin = std::max(options.margin * radius, beside_wall_ ? plane.width : 0.0);
   const Point low = extents.front().low.cwiseMin(extents.back().low).array() - margin;
   Point high = extents.front().high.cwiseMax(extents.back().high).array() + margin;
@@ -151,7 +151,7 @@ BoxMap::SurfacePoint BoxMap::on_box(const BoxBlock& block, const CubePoint& poin
   return {box.middle + box.half * point.g, box.half * point.g_slopes};
 }
 
-/// Where the lines from the membrane end: on the box, but on a wall above all below the membrane.
+/// End points of the lines from the membrane: on the box; on a wall mainly the feet of the points of the membrane.
 BoxMap::SurfacePoint BoxMap::on_face(const BoxBlock& block, const CubePoint& point,
                                      const SurfacePoint& membrane) const {
   SurfacePoint result = on_box(block, point);

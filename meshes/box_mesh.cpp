@@ -16,7 +16,7 @@ using BoxLayer = BoxBlock::Layer;
 
 class BoxMeshBuilder {
  public:
-  /// @param n_vesicles  1: beside a wall
+  /// @param n_vesicles  1 for a mesh beside a wall
   BoxMeshBuilder(const BoxMeshOptions& options, const BoxMap& map, int n_vesicles)
       : n_(options.cells_per_edge), n_vesicles_(n_vesicles), map_(map), across_(even_breaks(n_)) {
     topology.shape = CellShape::hexahedron;
@@ -41,7 +41,7 @@ class BoxMeshBuilder {
       for (const Shell& shell : shells_) {
         for (int axis = 0; axis < 3; ++axis) {
           for (const double sign : {-1.0, 1.0}) {
-            // The face in which the boxes meet, or one meets the wall, has nothing beyond it.
+            // Nothing lies beyond the face in which the boxes meet, or in which one meets the wall.
             if (shell.layer == BoxLayer::outer && faces_plane(vesicle, axis, sign)) continue;
             add_shell({shell.layer, vesicle, axis, sign}, shell);
           }
@@ -53,14 +53,14 @@ class BoxMeshBuilder {
   }
 
  private:
-  /// Layers of one kind of block; levels number their borders from the core outwards.
+  /// Layers of one kind of block; levels number the boundaries between layers from the core outwards.
   struct Shell {
     BoxLayer layer;
     int first_level;
     std::vector<double> borders;
   };
   static bool faces_plane(int vesicle, int axis, double sign) { return axis == 2 && (sign > 0.0) == (vesicle == 0); }
-  /// Vesicle, level and place on the cube, from −n to n: where a vertex is, the same for all blocks that meet there.
+  /// Identifies a vertex in all blocks that share it: vesicle, level and position on the cube, from −n to n.
   using Key = std::array<int, 5>;
 
   void add_core(int vesicle) {
@@ -82,7 +82,7 @@ class BoxMeshBuilder {
       result[2 + block.axis] = block.sign > 0.0 ? n_ : -n_;
       result[2 + first] = 2 * corner[0] - n_;
       result[2 + second] = 2 * corner[1] - n_;
-      // What both boxes have is counted to the first.
+      // Vertices that both boxes share are assigned to the first vesicle.
       if (result[1] >= first_outer_level_ && block.vesicle == 1 && result[4] == -n_) {
         result[0] = 0;
         result[4] = n_;
@@ -101,7 +101,7 @@ class BoxMeshBuilder {
           if (n_vesicles_ == 2) continue;
           const bool box_on_wall = shell.layer == BoxLayer::box && faces_plane(0, block.axis, block.sign);
           if (box_on_wall && k == layers - 1) cell.faces[kOuterFace] = FaceKind::wall;
-          // The blocks outside stand on the wall with the end of the coordinate along its normal.
+          // Outer blocks meet the wall at the upper end of the coordinate along its normal.
           if (shell.layer != BoxLayer::outer || block.axis == 2) continue;
           if ((first == 2 ? i : j) == n_ - 1) cell.faces[first == 2 ? 1 : 3] = FaceKind::wall;
         }

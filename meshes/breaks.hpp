@@ -2,13 +2,13 @@
 
 #include <vector>
 
-/// Where one cell ends and the next begins along an edge of a block.
+/// Boundaries between cells along an edge of a block.
 namespace vehd::meshes {
 
-/// From −1 to 1, all cells of one length.
+/// Breaks from −1 to 1 with cells of equal length.
 std::vector<double> even_breaks(int cells);
 
-/// From 0 to 1, each layer `growth` times as thick as the one before.
+/// Breaks from 0 to 1, each layer `growth` times as thick as the previous one.
 std::vector<double> layer_breaks(int layers, double growth);
 
 }  // namespace vehd::meshes

@@ -9,7 +9,7 @@
 namespace vehd::meshes {
 namespace {
 
-/// w, the share of the term that keeps volumes.
+/// w, the weight of the term that penalises changes of volume.
 constexpr double kVolumeShare = 0.1;
 
 std::vector<double> on_unit_interval(std::vector<double> nodes) {
@@ -41,7 +41,7 @@ Matrix3 stress(const Matrix3& f) {
   return (1.0 - kVolumeShare) * std::sqrt(square) / det * f + by_det * cofactors(f);
 }
 
-/// T with a·T a close to the second derivative of the density by row `component` of F in the direction a.
+/// T with a·T a close to the second derivative of the energy density with respect to row `component` of F along a.
 Matrix3 stiffness_density(const Matrix3& f, int component) {
   const double det = f.determinant();
   const double square = mean_square(f);
@@ -79,7 +79,7 @@ Distortion::Distortion(const Lattice& lattice, const Eigen::Matrix3Xd& undistort
     Matrices inverse;
     std::vector<double> weight;
     for (const Matrix3& slope : unit_derivatives(cell, undistorted)) {
-      // Blocks may be left-handed in their own coordinates: it is the volume that counts.
+      // Blocks can be left-handed in their own coordinates, hence the magnitude.
       weight.push_back(unit_weight[weight.size()] * std::abs(slope.determinant()));
       inverse.push_back(slope.inverse());
     }

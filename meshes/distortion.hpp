@@ -9,16 +9,16 @@
 
 namespace vehd::meshes {
 
-/// How much the cells of a lattice are distorted, as an energy of its nodes x:
+/// Distortion of the cells of a lattice, as an energy of its nodes x:
 ///
 ///   E(x) = ∫ [ (1 − w) (|F|²/3)^{3/2}/det F + w (det F + 1/det F)/2 ] dX,
 ///
-/// F the derivative of x by undistorted places X. The first term is 1 for a similarity and grows with every other
-/// change of form, the second keeps volumes; both are infinite where det F is 0. Whatever is no larger than the energy
-/// of a valid mesh is a valid mesh.
+/// with F the derivative of x with respect to the undistorted positions X. The first term is 1 for a similarity and
+/// grows with every other change of shape; the second one penalises changes of volume; both are infinite if det F = 0.
+/// A mesh whose energy is finite is therefore valid.
 ///
-/// Accuracy: Gauss–Lobatto quadrature with two points per direction more than the degree, ends included; det F > 0 is
-/// asked for at these points. The gradient is that of the sum (tests/meshes/relaxation_test.cpp)
+/// Accuracy: Gauss–Lobatto quadrature with degree + 3 points per direction, ends included; det F > 0 is required at
+/// these points. The gradient is that of the sum (tests/meshes/relaxation_test.cpp)
 ///
 /// Source: Garanzha et al. 2021
 class Distortion {
@@ -26,29 +26,29 @@ class Distortion {
   /// @param undistorted  X at the nodes, [3 x n_nodes]
   Distortion(const Lattice& lattice, const Eigen::Matrix3Xd& undistorted);
 
-  /// E, infinite for cells that are inverted somewhere.
+  /// E; infinite if a cell is inverted at a quadrature point.
   [[nodiscard]] double energy(const Eigen::Matrix3Xd& x) const;
   /// ∂E/∂x, [3 x n_nodes].
   [[nodiscard]] Eigen::Matrix3Xd gradient(const Eigen::Matrix3Xd& x) const;
-  /// Least det F.
+  /// Smallest det F over the quadrature points.
   [[nodiscard]] double smallest_determinant(const Eigen::Matrix3Xd& x) const;
-  /// Positive definite matrices close to the second derivatives of E by one component of x alone, one for each
-  /// component: the part of the second derivative that is a square.
+  /// Positive definite approximations of the second derivatives of E with respect to one component of x, one matrix for
+  /// each component, from the terms that are squares.
   [[nodiscard]] std::array<Eigen::SparseMatrix<double>, 3> stiffness(const Eigen::Matrix3Xd& x) const;
 
  private:
   using Matrices = std::vector<Matrix3>;
 
-  /// Derivatives by the unit coordinates at the Gauss points of a cell.
+  /// Derivatives with respect to the unit coordinates at the quadrature points of a cell.
   [[nodiscard]] Matrices unit_derivatives(const Lattice::Cell& cell, const Eigen::Matrix3Xd& x) const;
-  /// F at the Gauss points of a cell.
+  /// F at the quadrature points of a cell.
   [[nodiscard]] Matrices deformation(std::size_t cell, const Eigen::Matrix3Xd& x) const;
 
   const Lattice& lattice_;
-  NodalPolynomials line_;   ///< from nodes to Gauss points along an edge
-  Eigen::MatrixXd slopes_;  ///< of all nodal functions by the unit coordinates, [3 n_points x nodes of a cell]
+  NodalPolynomials line_;   ///< from nodes to quadrature points along an edge
+  Eigen::MatrixXd slopes_;  ///< of nodal functions with respect to unit coordinates, [3 n_points x nodes of a cell]
   std::vector<Matrices> to_undistorted_;     ///< ∂unit/∂X, for each cell
-  std::vector<std::vector<double>> weight_;  ///< of the Gauss points in ∫ dX
+  std::vector<std::vector<double>> weight_;  ///< of the quadrature points in ∫ dX
 };
 
 }  // namespace vehd::meshes

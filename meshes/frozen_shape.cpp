@@ -13,11 +13,11 @@
 namespace vehd::meshes {
 namespace {
 
-/// Calls visit(direction, weight) at every node; Σ weight = 4π. Exact for products of three functions of the degree.
+/// Calls visit(direction, weight) at every node; Σ weight = 4π. Exact for products of three functions of this degree.
 template <typename Visit>
 void for_each_node(int degree, const Visit& visit) {
-  // Four times the degree, at least: the area element is no polynomial, and a grid this fine resolves it where the
-  // shape itself is resolved.
+  // The area element is not a polynomial: the rule is exact to at least four times the degree, which resolves it
+  // wherever the shape itself is resolved.
   const int n_theta = std::max(2 * degree + 2, 32);
   const GaussRule rule = gauss_rule(n_theta);
   const int n_phi = 2 * n_theta;
@@ -48,7 +48,7 @@ const Eigen::MatrixXd& require_three_columns(const Eigen::MatrixXd& coefficients
   return coefficients;
 }
 
-/// n dA/dω from the tangent map: image of a right-handed orthonormal frame of the tangent plane.
+/// n dA/dω from the tangent map: cross product of the images of an orthonormal frame of the tangent plane.
 Point area_vector_of(const Point& direction, const Matrix3& tangent_map) {
   const Point first = direction.unitOrthogonal();
   const Point second = direction.cross(first);

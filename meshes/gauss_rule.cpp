@@ -6,8 +6,8 @@
 namespace vehd::meshes {
 namespace {
 
-/// Roots of the orthogonal polynomial whose Jacobi matrix has a zero diagonal and this one below it, ascending, with
-/// the squared first components of the eigenvectors: nodes and shares of a rule (Golub and Welsch).
+/// Roots, ascending, of the orthogonal polynomial whose Jacobi matrix has a zero diagonal and this subdiagonal, and the
+/// squared first components of the eigenvectors: nodes and normalised weights of a rule (Golub and Welsch).
 GaussRule rule_of(const Eigen::VectorXd& below) {
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(Eigen::VectorXd::Zero(below.size() + 1), below);
@@ -32,7 +32,7 @@ GaussRule gauss_rule(int n) {
 GaussRule lobatto_rule(int n) {
   GaussRule rule;
   if (n > 2) {
-    // The inner nodes are the roots of P'_{n−1}, a Jacobi polynomial with the weight 1 − x².
+    // The inner nodes are the roots of P'_{n−1}, a Jacobi polynomial with weight 1 − x².
     Eigen::VectorXd below(n - 3);
     for (int k = 1; k < n - 2; ++k) below[k - 1] = std::sqrt(k * (k + 2.0) / ((2.0 * k + 1.0) * (2.0 * k + 3.0)));
     rule.node = rule_of(below).node;

@@ -5,7 +5,7 @@
 
 namespace vehd::meshes {
 
-/// A rule of quadrature on [−1, 1]; nodes ascend.
+/// A quadrature rule on [−1, 1]; nodes ascend.
 struct GaussRule {
   std::vector<double> node;
   std::vector<double> weight;
@@ -14,10 +14,10 @@ struct GaussRule {
 /// Gauss–Legendre rule with n points, exact to degree 2n − 1.
 GaussRule gauss_rule(int n);
 
-/// Gauss–Lobatto rule with n ≥ 2 points, both ends among them, exact to degree 2n − 3.
+/// Gauss–Lobatto rule with n ≥ 2 points, both ends included, exact to degree 2n − 3.
 GaussRule lobatto_rule(int n);
 
-/// Polynomials that are 1 at one node and 0 at the others, at some points: [n_points x n_nodes].
+/// Lagrange polynomials of the nodes, and their derivatives, at given points: [n_points x n_nodes].
 struct NodalPolynomials {
   Eigen::MatrixXd value;
   Eigen::MatrixXd slope;

@@ -18,7 +18,7 @@ GmshSession::GmshSession() {
   gmsh::option::setNumber("Mesh.MaxNumThreads2D", 1);
   gmsh::option::setNumber("Mesh.MaxNumThreads3D", 1);
   gmsh::option::setNumber("Mesh.RandomSeed", 1);
-  // Its meshers draw from the C library's generator as well, which keeps its state from one session to the next.
+  // gmsh's meshers also use the C library's generator, whose state persists between sessions.
   std::srand(1);
   gmsh::model::add("vehd");
 }
@@ -35,7 +35,7 @@ std::string gmsh_message() {
   } catch (const char* text) {
     return text;
   } catch (int) {
-    // The real text is in gmsh's log.
+    // The message is in gmsh's log.
   }
   std::string last;
   gmsh::logger::getLastError(last);

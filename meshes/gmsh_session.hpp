@@ -4,8 +4,8 @@
 
 namespace vehd::meshes {
 
-/// gmsh is one global library: it lives from construction to destruction, with one empty model, silent, single-threaded
-/// and with fixed seeds, so that the same input gives the same mesh. Sessions do not nest.
+/// Initialises gmsh, which is one global library, and finalises it on destruction: one empty model, silent,
+/// single-threaded and with fixed seeds, so that equal input gives equal meshes. Sessions cannot be nested.
 class GmshSession {
  public:
   GmshSession();
@@ -14,7 +14,7 @@ class GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
 };
 
-/// Message of the exception in flight when a gmsh call threw; gmsh throws more than one type.
+/// Message of the current exception thrown by a gmsh call; gmsh throws exceptions of several types.
 std::string gmsh_message();
 
 }  // namespace vehd::meshes

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Index;
 
-/// Points evaluated side by side: one vector register or two.
+/// Number of points evaluated together: one or two vector registers.
 constexpr int kLanes = 8;
 
 int degree_of(Index n_coefficients) {
@@ -33,7 +33,7 @@ HarmonicSeries::HarmonicSeries(const Eigen::MatrixXd& coefficients)
   sectoral_.resize(degree_ + 1);
   sectoral_[0] = std::sqrt(0.25 / std::numbers::pi);
   for (int m = 1; m <= degree_; ++m) {
-    // Real harmonics with m > 0 carry √2, entered once, at m = 1.
+    // Real harmonics with m > 0 have a factor √2, introduced at m = 1.
     sectoral_[m] = sectoral_[m - 1] * std::sqrt((2.0 * m + 1.0) / (2.0 * m)) * (m == 1 ? std::numbers::sqrt2 : 1.0);
   }
   for (int m = 0; m <= degree_; ++m) {
@@ -46,7 +46,7 @@ HarmonicSeries::HarmonicSeries(const Eigen::MatrixXd& coefficients)
                     : std::sqrt((2 * nn + 1) * (nn + mm - 1) * (nn - mm - 1) / ((2 * nn - 3) * (nn - mm) * (nn + mm)));
       up_.push_back(up);
       down_.push_back(down);
-      // d/dz of the m-th derivative of P_n is the (m+1)-th; Q_n^0 lacks the √2 that Q_n^1 carries.
+      // d/dz of the m-th derivative of P_n is the (m+1)-th; Q_n^1 has a factor √2 that Q_n^0 does not have.
       slope_.push_back(std::sqrt((nn - mm) * (nn + mm + 1)) / (m == 0 ? std::numbers::sqrt2 : 1.0));
     }
   }
@@ -137,7 +137,7 @@ void HarmonicSeries::value_and_gradient(const Point& direction, Eigen::VectorXd&
   value.setZero(n_columns());
   gradient.setZero(n_columns(), 3);
   const double z = direction.z();
-  // Q_n^{m+1} gives the slope of Q_n^m: orders are walked downwards, with the one above kept.
+  // Q_n^{m+1} gives the slope of Q_n^m: orders run downwards, and the order above is kept.
   std::vector<double> q(degree_ + 1, 0.0);
   std::vector<double> above(degree_ + 1, 0.0);
   std::vector<double> re(degree_ + 1, 1.0);
@@ -169,7 +169,7 @@ void HarmonicSeries::value_and_gradient(const Point& direction, Eigen::VectorXd&
     }
     std::swap(q, above);
   }
-  // The polynomials live in all of space; on the sphere only the tangential part means anything.
+  // The polynomials extend to all of space; only the tangential part of their gradient is the surface gradient.
   gradient -= (gradient * direction) * direction.transpose();
 }
 

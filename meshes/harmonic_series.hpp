@@ -13,8 +13,8 @@ namespace vehd::meshes {
 /// Evaluated as polynomials in the direction, Y_{n,m} = Q_n^m(z) Re (x + iy)^m (Im for m < 0), with Q_n^m the
 /// normalised Legendre function without its factor sin^m θ. Nothing is singular at the poles; stable up to degree 64
 /// and beyond. Immutable, so that threads may share it.
-/// Accuracy: low degrees are the written formulas to 1e-14, squares of a degree sum to a constant to 1e-12 up to degree
-/// 64 (tests/meshes/harmonic_series_test.cpp)
+/// Accuracy: low degrees agree with the closed formulas to 1e-14, the sum of squares within a degree is constant to
+/// 1e-12 up to degree 64 (tests/meshes/harmonic_series_test.cpp)
 class HarmonicSeries {
  public:
   /// @throws std::invalid_argument if the number of rows is not the square of a positive integer
@@ -31,12 +31,12 @@ class HarmonicSeries {
   [[nodiscard]] Eigen::MatrixXd values(const Eigen::Matrix3Xd& directions) const;
   /// Gradient on the unit sphere, [n_columns x 3]: row c is the tangential vector ∇f_c in Cartesian components.
   [[nodiscard]] Eigen::MatrixXd gradient(const Point& direction) const;
-  /// value() and gradient() from one pass over the harmonics, in the shapes of theirs.
+  /// value() and gradient() in one pass over the harmonics, with the same shapes.
   void value_and_gradient(const Point& direction, Eigen::VectorXd& value, Eigen::MatrixXd& gradient) const;
 
  private:
   int degree_;
-  Eigen::MatrixXd coefficients_;           // [n_columns x n_coefficients]: the columns of one harmonic lie together
+  Eigen::MatrixXd coefficients_;           // [n_columns x n_coefficients]: contiguous for each harmonic
   std::vector<double> sectoral_;           // Q_m^m
   std::vector<double> up_, down_, slope_;  // Q_n = up z Q_{n-1} − down Q_{n-2}; dQ_n^m/dz = slope Q_n^{m+1}
 };

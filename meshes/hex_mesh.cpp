@@ -120,7 +120,7 @@ MeshQuality quality_of(const HexMesh& mesh, const FrozenShape& shape) {
   return quality(mesh, shape, kGaussPoints);
 }
 
-/// Of a mesh of straight lines.
+/// Whether a mesh of straight lines has an inverted or too flat element.
 bool is_folded(const HexMesh& mesh, const FrozenShape& shape, const BlockMeshOptions& options) {
   return quality_of(mesh, shape).smallest_scaled_jacobian < options.smallest_scaled_jacobian;
 }
@@ -129,7 +129,7 @@ std::vector<HexMesh> make_meshes(const FrozenShape& shape, std::vector<BlockMesh
                                  const BlockAxes& axes) {
   std::vector<HexMesh> meshes = meshes_of(shape, options, blended_maps(shape, options, axes));
   if (is_folded(meshes.front(), shape, options.front())) {
-    for (BlockMeshOptions& o : options) o.cells_per_edge += o.cells_per_edge % 2;  // no kink of the map within a cell
+    for (BlockMeshOptions& o : options) o.cells_per_edge += o.cells_per_edge % 2;  // kinks of the map lie between cells
     meshes = meshes_of(shape, options, relaxed_maps(shape, options, axes));
   }
   for (std::size_t i = 0; i < options.size(); ++i) {

@@ -9,13 +9,13 @@
 namespace vehd::meshes {
 namespace {
 
-/// Number of the interval between breaks that holds a value; beyond the ends the nearest.
+/// Number of the interval between breaks that contains a value; the nearest one for values beyond the ends.
 int interval_of(const std::vector<double>& breaks, double value) {
   const auto next = std::upper_bound(breaks.begin() + 1, breaks.end() - 1, value);
   return static_cast<int>(next - breaks.begin()) - 1;
 }
 
-/// Builds the cells; nodes are known by whole numbers, so that neighbours share them exactly.
+/// Builds the cells; integer keys identify the nodes, so that neighbours share them exactly.
 class Builder {
  public:
   Builder(Region region, int degree, const std::vector<double>& across, const std::vector<double>& outwards,
@@ -52,7 +52,7 @@ class Builder {
       key[(block.axis + 2) % 3] = at[1];
       key[3] = at[2];
     }
-    // Inside the core a node must not be taken for one of the same numbers in the innermost layer.
+    // A node inside the core must differ from the node of the innermost layer with the same integers.
     const bool on_core = std::any_of(key.begin(), key.end() - 1, [&](int k) { return k == 0 || k == last; });
     if (core && !on_core) key[3] = -1;
     const auto [known, added] = number_.try_emplace(key, static_cast<int>(nodes.size()));

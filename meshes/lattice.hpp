@@ -9,20 +9,20 @@
 
 namespace vehd::meshes {
 
-/// A place in a block by coordinates that run along its edges: three across the core in [−1, 1]; two across a blend or
-/// shell block in [−1, 1], the third outwards in [0, 1]. Of a block with the axis k the first two are v_{k+1} and
+/// A point of a block in coordinates that run along its edges: three across the core in [−1, 1]; in a blend or shell
+/// block two across in [−1, 1] and the third outwards in [0, 1]. In a block with axis k the first two are v_{k+1} and
 /// v_{k+2}, cyclically.
 struct BlockPlace {
   Block block;
   Point at;
 };
 
-/// Polynomial cells that fill the blocks of one side of the membrane, with nodes shared between neighbours: how a map
-/// of these blocks is given by positions of nodes. The inside has the core and one layer of blend blocks, the outside
-/// one layer of shell blocks.
+/// Polynomial cells that fill the blocks on one side of the membrane, with nodes shared between neighbours: a map of
+/// these blocks is given by the positions of the nodes. The inside has the core and the blend blocks, the outside the
+/// shell blocks.
 class Lattice {
  public:
-  /// Entity on which a node lies.
+  /// Boundary on which a node lies.
   enum class Boundary { none, membrane, outer };
   struct Node {
     BlockPlace place;  ///< in one of its cells
@@ -32,33 +32,33 @@ class Lattice {
     std::vector<int> nodes;  ///< first coordinate fastest
   };
 
-  /// @param breaks  of the third coordinate between layers of cells, from 0 to 1; ascending
+  /// @param breaks  boundaries of the layers of cells in the third coordinate, ascending from 0 to 1
   Lattice(Region region, int cells_per_edge, int degree, std::vector<double> breaks);
 
   [[nodiscard]] Region region() const { return region_; }
   [[nodiscard]] int degree() const { return degree_; }
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
-  /// Between the layers of cells.
+  /// Boundaries of the layers of cells.
   [[nodiscard]] const std::vector<double>& breaks() const { return breaks_; }
 
-  /// Value and derivative, by the coordinates of the block, of the field whose values at the nodes are given.
+  /// Value of the field with given nodal values, and its derivative with respect to the coordinates of the block.
   struct Sample {
     Point value;
     Matrix3 derivative;
   };
-  /// Both at a place of the block.
+  /// Value and derivative at a point of a block.
   /// @param nodal  [3 x nodes]
   [[nodiscard]] Sample sample(const Eigen::Matrix3Xd& nodal, const BlockPlace& place) const;
-  /// The value alone.
+  /// Value only.
   [[nodiscard]] Point value(const Eigen::Matrix3Xd& nodal, const BlockPlace& place) const;
 
  private:
-  /// Cell that holds a place, and its coordinates there, in [0, 1].
+  /// Cell that contains a point, and its coordinates in this cell, in [0, 1].
   struct Located {
     const Cell* cell;
     Point unit;
-    Point scale;  ///< of the unit coordinates by those of the block
+    Point scale;  ///< derivatives of the unit coordinates with respect to those of the block
   };
   [[nodiscard]] Located locate(const BlockPlace& place) const;
 

@@ -33,7 +33,7 @@ Cell with_replaced(Cell cell, int vertex, int by) {
   return cell;
 }
 
-/// Volume over the cube of the root mean square edge: a smooth measure of flatness.
+/// Six times the volume over the cube of the root mean square edge length: smooth, and small if the cell is flat.
 double flatness(const std::array<Point, 4>& x) {
   Matrix3 edges;
   for (int k = 0; k < 3; ++k) edges.col(k) = x[k + 1] - x[0];
@@ -44,19 +44,19 @@ double flatness(const std::array<Point, 4>& x) {
   return edges.determinant() / std::pow(squares / 6.0, 1.5);
 }
 
-/// The two vertices of the edge opposite to the common edge of two membrane faces, if the cell has two.
+/// The two vertices of the edge to split, if the cell has two membrane faces: the edge opposite to their common one.
 std::optional<std::array<int, 2>> edge_to_cut(const Cell& cell, const std::set<Face>& membrane) {
   std::vector<int> opposite;
   for (int k = 0; k < 4; ++k) {
-    // Faces without vertex k and without vertex l share the edge of the other two; k and l span the opposite edge.
+    // The faces opposite to vertices k and l share the edge of the other two; k and l span the opposite edge.
     if (membrane.contains(face_opposite(cell, k))) opposite.push_back(cell[k]);
   }
   if (opposite.size() < 2) return std::nullopt;
   return std::array<int, 2>{opposite[0], opposite[1]};
 }
 
-/// Cuts one edge by a vertex at the place, among some between its middle and the middle of its ring, that is best for
-/// the flattest new cell.
+/// Splits one edge by a vertex on the line from its midpoint through the centre of the cells around it, at the one of
+/// several positions that is best for the flattest new cell.
 void cut_edge(const std::array<int, 2>& edge, std::vector<Cell>& cells, std::vector<Point>& vertices) {
   std::vector<Cell> ring;
   std::erase_if(cells, [&](const Cell& cell) {
@@ -93,7 +93,7 @@ void cut_edge(const std::array<int, 2>& edge, std::vector<Cell>& cells, std::vec
 }
 
 void separate(std::vector<Cell>& cells, std::vector<Point>& vertices, const std::set<Face>& membrane) {
-  // A cut makes no cell with two membrane faces: each half loses one of them, and new faces are none.
+  // A split creates no cell with two membrane faces: each half loses one, and no new face is on the membrane.
   for (std::size_t i = 0; i < cells.size();) {
     const auto edge = edge_to_cut(cells[i], membrane);
     if (!edge) {

@@ -7,9 +7,9 @@
 
 namespace vehd::meshes {
 
-/// Refines tetrahedra until none has two faces on the membrane: the membrane is smooth, so that two curved faces of one
-/// cell would meet at 180° and the map would be singular along their common edge. The edge opposite to that one is cut
-/// by a new vertex, moved into the volume as far as it serves the flattest of the new cells.
+/// Refines tetrahedra until none has two faces on the membrane: since the membrane is smooth, two curved faces of one
+/// cell would meet at 180° and the map would be singular along their common edge. The edge opposite to that one is
+/// split by a new vertex, placed inside the volume where it is best for the flattest new cell.
 /// @param triangles  of the membrane, vertex numbers of `volumes`
 void separate_membrane_faces(FilledVolumes& volumes, const std::vector<std::array<int, 3>>& triangles);
 

@@ -20,7 +20,7 @@ struct WeightedPoint {
   double weight;
 };
 
-/// Tensor Gauss rule on the cube; on the tetrahedron through the collapse of a cube onto it.
+/// Tensor Gauss rule on the cube; on the tetrahedron, the rule of a collapsed cube.
 std::vector<WeightedPoint> cell_rule(CellShape shape, int n) {
   const GaussRule rule = gauss_rule(n);
   std::vector<WeightedPoint> result;
@@ -86,7 +86,7 @@ double scaled_jacobian(CellShape shape, const Matrix3& j) {
   return shape == CellShape::hexahedron ? scaled_jacobian_of_hexahedron(j) : scaled_jacobian_of_tetrahedron(j);
 }
 
-/// A collapsed edge gives 0/0, and every comparison with a NaN would pass it over.
+/// A collapsed edge gives 0/0; comparisons with NaN are false and would skip it.
 double worst_if_undefined(double value) { return std::isnan(value) ? -std::numeric_limits<double>::infinity() : value; }
 
 /// Adds the areas of the membrane faces.

@@ -14,7 +14,7 @@ struct FacePlace {
   int face;
 };
 
-/// The face's vertices sorted: the same for both cells at a face.
+/// Sorted vertices of a face: equal for the two cells that share it.
 std::array<int, 4> face_key(const MeshTopology& topology, const FacePlace& place) {
   std::array<int, 4> key;
   const std::array<int, 4>& corners = face_vertices(topology.shape, place.face);
@@ -23,7 +23,7 @@ std::array<int, 4> face_key(const MeshTopology& topology, const FacePlace& place
   return key;
 }
 
-/// Vertex number within a cell of a vertex of the mesh.
+/// Number within a cell of a vertex of the mesh.
 int local_vertex(const MeshCell& cell, int vertex) {
   return static_cast<int>(std::find(cell.vertices.begin(), cell.vertices.end(), vertex) - cell.vertices.begin());
 }
@@ -108,7 +108,7 @@ void find_interface(MeshTopology& topology) {
 void split_interface(MeshTopology& topology) {
   std::map<int, int> copy_of;
   for (std::array<int, 2>& pair : topology.interface_vertices) {
-    if (pair[0] != pair[1]) continue;  // split already
+    if (pair[0] != pair[1]) continue;  // already split
     pair[1] = static_cast<int>(topology.vertices.size());
     copy_of[pair[0]] = pair[1];
     topology.vertices.push_back(Point(topology.vertices[pair[0]]));

@@ -5,7 +5,7 @@
 
 #include "meshes/types.hpp"
 
-/// Cells, faces and the interface of a volume mesh, numbered as deal.II numbers them.
+/// Cells, faces and the interface of a volume mesh, in deal.II's numbering.
 namespace vehd::meshes {
 
 /// Shape of all cells of a mesh.
@@ -22,7 +22,7 @@ struct MeshCell {
   std::array<int, 8> vertices;
   Region region;
   std::array<FaceKind, 6> faces;
-  int vesicle = 0;  ///< that it lies in, or outside, that it belongs to
+  int vesicle = 0;  ///< vesicle that contains the cell; outside, the vesicle whose blocks it belongs to
 };
 
 /// One face of the membrane seen from both sides.
@@ -31,31 +31,31 @@ struct InterfacePair {
   int inside_face;
   int outside_cell;
   int outside_face;
-  /// Vertex number within the outside cell that coincides with face_vertices(inside_face)[k] of the inside cell; −1
-  /// beyond the third of a triangle.
+  /// Number within the outside cell of the vertex that coincides with face_vertices(inside_face)[k] of the inside cell;
+  /// −1 for the missing fourth vertex of a triangle.
   std::array<int, 4> outside_vertex;
 };
 
-/// Cells of a mesh and which of their faces meet on the membrane.
+/// Cells of a mesh, and the pairs of their faces that meet on the membrane.
 struct MeshTopology {
   CellShape shape = CellShape::hexahedron;
   /// Block meshes: reference coordinates (BlockMap). Tetrahedra: positions in space.
   std::vector<Point> vertices;
   std::vector<MeshCell> cells;
   std::vector<InterfacePair> interface;
-  /// {inside vertex, outside vertex} at the same point of γ: different numbers if the interface is split, equal if not.
+  /// {inside vertex, outside vertex} at one point of γ: different numbers if the interface is split, equal if not.
   std::vector<std::array<int, 2>> interface_vertices;
 };
 
-/// 8 or 4.
+/// 8 for a hexahedron, 4 for a tetrahedron.
 int vertices_per_cell(CellShape shape);
-/// 6 or 4.
+/// 6 for a hexahedron, 4 for a tetrahedron.
 int faces_per_cell(CellShape shape);
 /// Vertex numbers within a cell of one of its faces, in deal.II's order; the fourth is −1 for a triangle.
 const std::array<int, 4>& face_vertices(CellShape shape, int face);
 /// Unit coordinates of one vertex.
 Point unit_vertex(CellShape shape, int vertex);
-/// Values of the (tri)linear vertex functions at a point of the unit cell; entries of a tetrahedron end at 4.
+/// Values of the (tri)linear vertex functions at a point of the unit cell; a tetrahedron uses the first 4 entries.
 std::array<double, 8> vertex_functions(CellShape shape, const Point& unit);
 /// Centre of the unit cell.
 Point unit_centre(CellShape shape);
@@ -64,8 +64,8 @@ Point unit_centre(CellShape shape);
 /// @throws MeshError if a membrane face has no partner on the other side
 void find_interface(MeshTopology& topology);
 
-/// Gives the outside cells vertices of their own on γ, so that inside and outside share none. The interface must have
-/// been found.
+/// Gives the outside cells their own vertices on γ, so that inside and outside share none. Requires find_interface()
+/// first.
 void split_interface(MeshTopology& topology);
 
 }  // namespace vehd::meshes

@@ -32,7 +32,7 @@ const std::vector<VertexList>& second_order_nodes(CellShape shape) {
   return shape == CellShape::hexahedron ? kHexahedron : kTetrahedron;
 }
 
-/// Elements and the nodes that they are the first to use, of one region.
+/// Elements of one region, and the nodes that they use first.
 struct RegionElements {
   std::vector<std::size_t> element_tags;
   std::vector<std::size_t> element_nodes;
@@ -40,10 +40,10 @@ struct RegionElements {
   std::vector<double> node_positions;
 };
 
-/// Second-order nodes belong to sets of vertices, hence cells at a face share them and a split interface stays split.
+/// Nodes are identified by sets of vertices: cells share the nodes of a common face, and a split interface stays split.
 class NodeNumbers {
  public:
-  /// Tag of the node of these vertices, from 1; `fresh` tells whether it is new.
+  /// Tag of the node of these vertices, from 1; `fresh` is set if it is new.
   std::size_t tag(VertexList vertices, bool& fresh) {
     std::sort(vertices.begin(), vertices.end());
     const auto [place, inserted] = tags_.try_emplace(std::move(vertices), tags_.size() + 1);
@@ -84,7 +84,7 @@ void add_region(int volume, const std::string& name, CellShape shape, const Regi
   gmsh::model::setPhysicalName(3, volume, name);
 }
 
-/// The faces of one membrane as elements of their own, on the nodes that the cells of one region have there.
+/// Adds the faces of one membrane as separate elements on the nodes of the cells of one region.
 void add_membrane(int surface, const std::string& name, const VolumeMesh& mesh, Region region, int vesicle,
                   NodeNumbers& numbers, std::size_t& last_tag) {
   constexpr int kQuadrangle9 = 10;  // gmsh's element types
@@ -95,7 +95,7 @@ void add_membrane(int surface, const std::string& name, const VolumeMesh& mesh, 
     if (mesh.cell(pair.inside_cell).vesicle != vesicle) continue;
     const int cell = region == Region::inside ? pair.inside_cell : pair.outside_cell;
     const std::array<int, 4>& inner = face_vertices(mesh.cell_shape(), pair.inside_face);
-    // Corners around the face, outwards from the inside: deal.II's own order of a quadrangle crosses it.
+    // Corners in cyclic order, with the normal outwards; deal.II numbers a quadrilateral lexicographically.
     std::vector<int> corners;
     for (const int k : is_hexahedron ? VertexList{0, 1, 3, 2} : VertexList{0, 1, 2}) {
       corners.push_back(mesh.cell(cell).vertices[region == Region::inside ? inner[k] : pair.outside_vertex[k]]);
@@ -133,7 +133,7 @@ int add_quality_view(const MeshQuality& quality) {
 }  // namespace
 
 void write_msh(const std::filesystem::path& file, const VolumeMesh& mesh, const MeshQuality& quality) {
-  // gmsh itself reports an unwritable file late and in few words.
+  // gmsh itself reports an unwritable file late and with little detail.
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (!std::filesystem::is_directory(folder)) {
     throw MeshError(fmt::format("cannot write {}: there is no folder {}", file.string(), folder.string()));
@@ -160,7 +160,7 @@ void write_msh(const std::filesystem::path& file, const VolumeMesh& mesh, const 
     }
     const int view = add_quality_view(quality);
     gmsh::write(file.string());
-    // A view brings its own copy of the mesh unless told otherwise: every element would be there twice.
+    // By default a view stores its own copy of the mesh, which would duplicate every element.
     gmsh::option::setNumber("PostProcessing.SaveMesh", 0);
     constexpr bool kAppend = true;
     gmsh::view::write(view, file.string(), kAppend);

@@ -5,8 +5,8 @@
 
 namespace vehd::meshes {
 
-/// As make_block_mesh, with the axes of the cube given: meshes of several shapes with the same axes in directions have
-/// the same (θ, φ) at every node of γ.
+/// As make_block_mesh, with given axes of the cube: meshes of several shapes with equal axes in directions have equal
+/// (θ, φ) at corresponding nodes of γ.
 /// @throws MeshError, std::invalid_argument as make_block_mesh
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options, const BlockAxes& axes);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Nodes = Eigen::Matrix3Xd;
 
-/// Stiffness of the inner nodes at one mesh, factorised, each component for itself.
+/// Factorised stiffness of the inner nodes at one mesh, separate for each component.
 class InnerStiffness {
  public:
   InnerStiffness(const Lattice& lattice, const Distortion& distortion) : lattice_(lattice), distortion_(distortion) {
@@ -36,7 +36,7 @@ class InnerStiffness {
     analysed_ = true;
   }
 
-  /// Of a force on the nodes; boundary nodes stay.
+  /// Displacement of the inner nodes under a force on the nodes; boundary nodes are fixed.
   [[nodiscard]] Nodes displacement(const Nodes& force) const {
     Nodes result = Nodes::Zero(3, force.cols());
     for (int component = 0; component < 3; ++component) {
@@ -46,7 +46,7 @@ class InnerStiffness {
     return result;
   }
 
-  /// Continues a displacement of boundary nodes, zero at all others, to the inside.
+  /// Extends a displacement of the boundary nodes, zero at all others, to the inner nodes.
   [[nodiscard]] Nodes continued(const Nodes& boundary) const {
     Nodes force(3, boundary.cols());
     for (int component = 0; component < 3; ++component) {
@@ -55,7 +55,7 @@ class InnerStiffness {
     return boundary - displacement(force);
   }
 
-  /// The gradient of E by inner nodes.
+  /// Gradient of E with respect to the inner nodes.
   [[nodiscard]] Nodes gradient(const Nodes& x) const {
     Nodes result = distortion_.gradient(x);
     for (std::size_t node = 0; node < lattice_.nodes().size(); ++node) {
@@ -74,7 +74,7 @@ class InnerStiffness {
   bool analysed_ = false;
 };
 
-/// Steps and changes of gradient that the limited-memory method remembers.
+/// Stored steps and changes of the gradient of the limited-memory method.
 class Memory {
  public:
   void add(const Nodes& step, const Nodes& change) {
@@ -85,7 +85,7 @@ class Memory {
     if (pairs_.size() > kLongest) pairs_.pop_front();
   }
 
-  /// About the inverse second derivative times a gradient: the two-loop recursion.
+  /// Approximate inverse second derivative times a gradient: the two-loop recursion.
   [[nodiscard]] Nodes direction(Nodes gradient, const InnerStiffness& stiffness) const {
     std::vector<double> share(pairs_.size());
     for (std::size_t i = pairs_.size(); i-- > 0;) {
@@ -108,7 +108,7 @@ class Memory {
   std::deque<Pair> pairs_;
 };
 
-/// Lowers the energy until a step gains less than `tolerance` of it; returns whether it came that far.
+/// Lowers the energy until the predicted gain of a step is below `tolerance` times it; false if n_steps do not suffice.
 bool lower_energy(const Distortion& distortion, const InnerStiffness& stiffness, Nodes& x, int n_steps,
                   double tolerance) {
   constexpr double kLeastStep = 1e-9;
@@ -138,7 +138,7 @@ bool lower_energy(const Distortion& distortion, const InnerStiffness& stiffness,
   return false;
 }
 
-/// What the boundary has still to go; zero at inner nodes.
+/// Remaining displacement of the boundary; zero at inner nodes.
 Nodes way_left(const Lattice& lattice, const Nodes& x, const Nodes& boundary) {
   Nodes result = Nodes::Zero(3, x.cols());
   for (std::size_t node = 0; node < lattice.nodes().size(); ++node) {
@@ -153,7 +153,7 @@ Nodes way_left(const Lattice& lattice, const Nodes& x, const Nodes& boundary) {
 Nodes relaxed_nodes(const Lattice& lattice, const Distortion& distortion, const Nodes& start,
                     const std::function<Nodes(double share)>& boundary_at) {
   constexpr double kFirstPart = 0.1, kLeastPart = 1e-3, kLonger = 1.5;
-  constexpr double kLeastSqueeze = 0.2;  // det F after a part over that before
+  constexpr double kLeastSqueeze = 0.2;  // smallest det F after an increment over that before it
   constexpr int kStepsOnTheWay = 8, kStepsAtTheEnd = 25, kRoundsAtTheEnd = 6;
   constexpr double kToleranceOnTheWay = 1e-4, kToleranceAtTheEnd = 1e-6;
   InnerStiffness stiffness(lattice, distortion);

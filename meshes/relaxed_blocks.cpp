@@ -10,17 +10,17 @@
 namespace vehd::meshes {
 namespace {
 
-/// Two cells along an edge suffice for a smooth map at a low cost, and what they lack on γ is added to it. At degree 3
-/// the energy falls much more slowly.
+/// Two cells along an edge suffice for a smooth map at a low cost; their deviation from γ is corrected by RelaxedMap.
+/// At degree 3 the energy decreases much more slowly.
 constexpr int kCellsPerEdge = 2;
 constexpr int kDegree = 4;
 
-/// Direction V g/|g| of a place outside the core.
+/// Direction V g/|g| of a point outside the core.
 Point direction_of(const BlockPlace& place, const BlockAxes& axes) {
   return axes.in_directions * BlockMap::cube_direction(place.block.axis, place.block.sign, place.at.x(), place.at.y());
 }
 
-/// Blocks of the unit sphere and of the shell around it, turned by V.
+/// Blocks of the unit sphere and of the shell around it, rotated by V.
 Point undistorted(const BlockPlace& place, const BlockAxes& axes, double core_half_width, double thickness) {
   if (place.block.layer == Block::Layer::core) return core_half_width * (axes.in_directions * place.at);
   const Point direction = direction_of(place, axes);

@@ -9,28 +9,28 @@
 
 namespace vehd::meshes {
 
-/// The blocks of a shape that straight lines do not mesh: those of a sphere, carried along with its surface while this
-/// is bent into the shape, and kept as little distorted as possible on the way (relaxed_nodes()). Outside, the inner
-/// layers of the shell take part, up to a sphere that holds the shape; beyond it the shell is that of a sphere.
-/// Immutable. The solution does not depend on the outer layers: meshes with more of them share it. The map is smooth
-/// within the cells of meshes whose number of cells along an edge is even.
+/// Blocks of a shape that straight lines cannot mesh: the blocks of a sphere, deformed with its surface into the shape
+/// and kept as little distorted as possible (relaxed_nodes()). Outside, the inner layers of the shell are deformed too,
+/// out to a sphere that encloses the shape; beyond it the shell is that of a sphere. Immutable. The solution does not
+/// depend on the outer layers, so meshes with different outer layers can share it. The map is smooth within every cell
+/// of a mesh whose number of cells along an edge is even.
 class RelaxedBlocks {
  public:
   /// @throws MeshError if the blocks cannot follow the shape
   RelaxedBlocks(const FrozenShape& shape, const BlockAxes& axes, const BlockMeshOptions& options);
 
   [[nodiscard]] const Lattice& lattice(Region region) const { return region == Region::inside ? inside_ : outside_; }
-  /// Positions of the nodes of a lattice about the centroid of the shape.
+  /// Positions of the nodes of a lattice, relative to the centroid of the shape.
   [[nodiscard]] const Eigen::Matrix3Xd& nodes(Region region) const {
     return region == Region::inside ? inside_nodes_ : outside_nodes_;
   }
-  /// Thickness of the layers that take part, and radius of the sphere that they end on.
+  /// Thickness of the deformed layers, and radius of the sphere on which they end.
   [[nodiscard]] double thickness() const { return thickness_; }
   [[nodiscard]] double end_radius() const { return end_radius_; }
 
  private:
   struct Layers {
-    std::vector<double> breaks;  ///< as shares of the thickness
+    std::vector<double> breaks;  ///< as fractions of the thickness
     double thickness;
   };
   static Layers relaxed_layers(const FrozenShape& shape, const BlockMeshOptions& options);

@@ -5,7 +5,7 @@ namespace {
 
 Region region_of(const Block& block) { return block.layer == Block::Layer::shell ? Region::outside : Region::inside; }
 
-/// The same place with another third coordinate.
+/// The point with another third coordinate.
 BlockPlace at_third(BlockPlace place, double t) {
   place.at.z() = t;
   return place;
@@ -23,7 +23,7 @@ RelaxedMap::Place RelaxedMap::place_of(const Block& block, const CubePoint& poin
     const double slope = 1.0 / (kMembrane - kCore);
     return {at_third({block, across}, (point.s - kCore) * slope), slope};
   }
-  // The layers of a shell are thicknesses of one on a sphere of the radius of the shape.
+  // Linear in the radius from that of the shape outwards; 1 where the relaxed layers end.
   const double first_radius = blocks_->end_radius() - blocks_->thickness();
   const double slope = (outer_radius() - first_radius) / blocks_->thickness() / (kOuter - kMembrane);
   return {at_third({block, across}, (point.s - kMembrane) * slope), slope};
@@ -80,7 +80,7 @@ Matrix3 RelaxedMap::derivative(const Block& block, const Point& reference) const
   }
   const CubePoint point = cube_point(block, reference);
   const CubeSlopes slopes = cube_slopes(block, point);
-  // By name: clang 14 captures no structured binding.
+  // A named variable: clang 14 cannot capture structured bindings.
   const Place sloped = place_of(block, point);
   const BlockPlace& place = sloped.place;
   const double slope = sloped.slope, t = place.at.z();
@@ -92,7 +92,7 @@ Matrix3 RelaxedMap::derivative(const Block& block, const Point& reference) const
   const Region region = region_of(block);
   const Lattice& lattice = blocks_->lattice(region);
   const Eigen::Matrix3Xd& nodes = blocks_->nodes(region);
-  Matrix3 place_slope;  // of the coordinates of the block by X
+  Matrix3 place_slope;  // derivatives of the block coordinates with respect to X
   place_slope << slopes.v.row((block.axis + 1) % 3), slopes.v.row((block.axis + 2) % 3), slope * slopes.s.transpose();
   Matrix3 across = place_slope;
   across.row(2).setZero();

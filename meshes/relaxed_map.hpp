@@ -7,9 +7,9 @@
 
 namespace vehd::meshes {
 
-/// The map of RelaxedBlocks: their polynomials P, and in the layers at γ and at the sphere that they end on what these
-/// lack of x(r̂) and of the sphere, linear in the distance across the layer; beyond that sphere straight lines to the
-/// outer one.
+/// The map of RelaxedBlocks: their polynomials P, corrected in the layers at γ and at the sphere on which these end by
+/// the difference between P and the exact surface, linear in the distance across the layer; beyond that sphere,
+/// straight lines to the outer one.
 class RelaxedMap final : public BlockMap {
  public:
   /// @param blocks  of this shape with these axes
@@ -20,13 +20,13 @@ class RelaxedMap final : public BlockMap {
   [[nodiscard]] Matrix3 derivative(const Block& block, const Point& reference) const override;
 
  private:
-  /// Coordinates of a point outside the core, with ∂/∂X of the third; a third beyond 1 lies outside the relaxed layers.
+  /// Point outside the core, with ∂/∂s of its third coordinate, which is above 1 outside the relaxed layers.
   struct Place {
     BlockPlace place;
     double slope;
   };
   [[nodiscard]] Place place_of(const Block& block, const CubePoint& point) const;
-  /// Share of what P lacks at γ, or at the sphere, that is added at a third coordinate, with its slope.
+  /// Fraction of the correction at γ, or at the sphere, that is added at a third coordinate, and its slope.
   struct Share {
     double value, slope;
   };

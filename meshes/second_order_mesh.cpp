@@ -7,7 +7,7 @@ namespace {
 
 using NodeWeights = Eigen::Matrix<double, 27, 1>;
 
-/// Quadratic functions that are 1 at one of the nodes 0, ½, 1 and 0 at the others.
+/// Quadratic Lagrange polynomials of the nodes 0, ½, 1.
 Point functions_of(double t) { return {(1.0 - t) * (1.0 - 2.0 * t), 4.0 * t * (1.0 - t), t * (2.0 * t - 1.0)}; }
 Point slopes_of(double t) { return {4.0 * t - 3.0, 4.0 - 8.0 * t, 4.0 * t - 1.0}; }
 

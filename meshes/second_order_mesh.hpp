@@ -6,8 +6,8 @@
 
 namespace vehd::meshes {
 
-/// The 27-node hexahedra that a file holds in place of the exact map: quadratic in each unit coordinate, the map
-/// itself at the vertices and at the middles of edges, faces and cells. Keeps the other mesh for directions only.
+/// The 27-node hexahedra that a file stores instead of the exact map: quadratic in each unit coordinate, interpolating
+/// the map at the vertices and the midpoints of edges, faces and cells. Uses the other mesh for directions only.
 /// Accuracy: exact at the nodes; volume and area as gmsh finds them in the file (tests/meshes/msh_file_test.cpp)
 class SecondOrderMesh final : public VolumeMesh {
  public:

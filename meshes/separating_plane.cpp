@@ -22,7 +22,7 @@ SeparatingPlane separating_plane(const FrozenShape& first, const FrozenShape& se
     const double width = begin_of_second - end_of_first;
     if (width > best.width) best = {normal, 0.5 * (end_of_first + begin_of_second), width};
     if (width >= (1.0 - kPrecision) * length) break;
-    // The point nearest to the origin on the way to the vector between the extreme points.
+    // Point nearest to the origin on the segment from here to the difference of the extreme points.
     const Point way = b.col(lower) - a.col(upper) - shortest;
     shortest += std::clamp(-shortest.dot(way) / way.squaredNorm(), 0.0, 1.0) * way;
   }

@@ -12,7 +12,7 @@
 namespace vehd::meshes {
 namespace {
 
-/// The unit sphere as 8 octants between the axes.
+/// Builds the unit sphere from 8 octants between the axes.
 void build_octants() {
   namespace geo = gmsh::model::geo;
   const int centre = geo::addPoint(0.0, 0.0, 0.0);
@@ -23,7 +23,7 @@ void build_octants() {
       pole[axis][side] = geo::addPoint(x.x(), x.y(), x.z());
     }
   }
-  // arc[axis][side][next side]: from the pole of an axis to that of the next axis.
+  // arc[axis][side][next side]: from the pole of one axis to a pole of the next axis.
   std::array<std::array<std::array<int, 2>, 2>, 3> arc;
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
@@ -50,7 +50,7 @@ std::map<std::size_t, int> read_directions(SphereTriangulation& result) {
   std::map<std::size_t, Point> sorted;
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const Point position(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
-    // The centre of the arcs is a node without elements.
+    // The common centre of the arcs is a node without elements.
     if (position.norm() > 0.5) sorted[tags[i]] = position.normalized();
   }
   std::map<std::size_t, int> index;
@@ -75,7 +75,7 @@ SphereTriangulation triangulate_sphere(const std::function<double(const Point& d
     gmsh::option::setNumber("Mesh.Algorithm", kFrontalDelaunay);
     gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
     gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
-    // Recent versions of gmsh also pass the size that they would take themselves.
+    // Recent versions of gmsh also pass the size that they would choose.
     gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double z, auto... /*size*/) {
       return edge_length(Point(x, y, z).normalized());
     });

@@ -4,7 +4,7 @@
 
 namespace vehd::meshes {
 
-/// Points of a membrane, evenly in angle and finer than its grid, poles included: [3 x n].
+/// Sample points of a membrane, evenly spaced in θ and φ and finer than its grid, poles included: [3 x n].
 Eigen::Matrix3Xd surface_samples(const FrozenShape& shape);
 
 }  // namespace vehd::meshes

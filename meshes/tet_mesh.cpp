@@ -67,7 +67,7 @@ Matrix3 TetMesh::jacobian(int cell_index, const Point& unit) const {
 }
 
 Point TetMesh::direction(int cell_index, const Point& unit) const {
-  // Node functions of all nodes off a face vanish on it, so that zero directions there do no harm.
+  // Node functions of nodes off a face vanish on it, so the zero directions of these nodes do not contribute.
   const auto& faces = cell(cell_index).faces;
   if (std::find(faces.begin(), faces.end(), FaceKind::membrane) == faces.end()) {
     throw std::logic_error(fmt::format("cell {} has no membrane face: no point of it has a direction", cell_index));
@@ -81,7 +81,7 @@ void require(bool holds, const char* what, double value) {
   if (!holds) throw std::invalid_argument(fmt::format("tetrahedral mesh: {} is {}, but must be positive", what, value));
 }
 
-/// A surface of the mesh with what its midpoints need: numbers of its vertices in the mesh start at `first_vertex`.
+/// A curved surface of the mesh; its vertices are numbered in the mesh from `first_vertex`.
 struct CurvedSurface {
   const SphereTriangulation& sphere;
   int first_vertex;
@@ -98,7 +98,7 @@ Face sorted_face(Face face) {
   return face;
 }
 
-/// Midpoints that do not lie halfway, with their directions (zero off the membrane), and the faces of the surfaces.
+/// Midpoints of curved edges with their directions (zero off the membrane), and the faces on curved surfaces.
 struct CurvedParts {
   std::map<Edge, Point> midpoint;
   std::map<Edge, Point> membrane_direction;
@@ -170,7 +170,7 @@ double distance_to(const std::vector<Point>& points, const Point& x) {
   return std::sqrt(smallest);
 }
 
-/// Of any quality.
+/// Mesh whose quality has not been checked.
 TetMesh filled_with_curved_tetrahedra(const FrozenShape& shape, const TetMeshOptions& options) {
   const Point centre = shape.centroid();
   const double reach = shape.largest_distance(centre);
@@ -186,7 +186,7 @@ TetMesh filled_with_curved_tetrahedra(const FrozenShape& shape, const TetMeshOpt
   const auto on_membrane = [&](const Point& direction) { return shape.position(direction); };
   const auto on_sphere = [&](const Point& direction) { return Point(centre + radius * direction); };
 
-  // Triangles keep the stretch of x(θ, φ); their area is that of equilateral ones.
+  // Triangles are stretched as x(θ, φ) is; their area is that of equilateral triangles with the required edge length.
   const SphereTriangulation membrane = triangulate_sphere(
       [&](const Point& direction) { return surface_size / std::sqrt(shape.area_vector(direction).norm()); });
   const ClosedSurface inner = mapped(membrane, on_membrane);
@@ -227,7 +227,7 @@ TetMesh make_tetrahedral_mesh(const FrozenShape& shape, const TetMeshOptions& op
     const MeshQuality found = quality(mesh, shape, kGaussPoints);
     if (found.smallest_scaled_jacobian >= options.smallest_scaled_jacobian) return mesh;
     if (attempt == kFurtherAttempts) require_quality(found, options.smallest_scaled_jacobian);
-    // A single element may be too flat by chance. Slightly smaller ones lie elsewhere.
+    // A single element can be too flat by chance; a slightly different size changes all elements.
     tried.surface_size *= 0.97;
   }
 }

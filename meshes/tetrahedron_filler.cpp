@@ -80,7 +80,7 @@ FilledVolumes fill(const ClosedSurface& inner, const ClosedSurface& outer,
   const int inside = gmsh::model::geo::addVolume({inner_loop});
   const int shell = gmsh::model::geo::addVolume({outer_loop, inner_loop});
   gmsh::model::geo::synchronize();
-  // Recent versions of gmsh also pass the size that they would take themselves.
+  // Recent versions of gmsh also pass the size that they would choose.
   gmsh::model::mesh::setSizeCallback(
       [&](int, int, double x, double y, double z, auto... /*size*/) { return edge_length(Point(x, y, z)); });
   gmsh::model::mesh::generate(3);
@@ -98,7 +98,7 @@ FilledVolumes fill(const ClosedSurface& inner, const ClosedSurface& outer,
 FilledVolumes fill_with_tetrahedra(const ClosedSurface& inner, const ClosedSurface& outer,
                                    const std::function<double(const Point& position)>& edge_length) {
   std::string reasons;
-  // HXT keeps random numbers from one call to the next, so that its meshes depend on what was meshed before.
+  // Delaunay first: HXT keeps random numbers between calls, so its meshes depend on what was meshed before.
   for (const double algorithm : {kDelaunay, kHxt}) {
     try {
       return fill(inner, outer, edge_length, algorithm);

@@ -5,13 +5,13 @@
 
 namespace vehd::meshes {
 
-/// A point or a vector of space.
+/// A point or a vector in space.
 using Point = Eigen::Vector3d;
 /// A Jacobian or a frame.
 using Matrix3 = Eigen::Matrix3d;
 
-/// A mesh that cannot be used: an element inverted or too flat, a shape that the outer sphere does not hold, or a
-/// mesher that gave up. The message names the place.
+/// An unusable mesh: an inverted or too flat element, a shape that does not fit into the outer sphere, or a failure of
+/// the mesher. The message names the position.
 class MeshError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -12,12 +12,12 @@
 
 namespace vehd::meshes {
 
-/// Curved volume mesh of the inside of a membrane γ and of the shell between γ and a sphere of radius R. γ may be the
-/// membranes of several vesicles. Beside a wall the shell ends on it: the centre of the sphere lies in the wall, and
-/// half of the sphere is left.
+/// Curved volume mesh of the inside of a membrane γ and of the shell between γ and a sphere of radius R. γ can consist
+/// of the membranes of several vesicles. Beside a wall the shell ends on the wall: the centre of the sphere lies on it,
+/// and the mesh fills half of the sphere.
 ///
-/// The geometry is a smooth map of every unit cell. Both cells at a face map it to the same points, up to rounding; the
-/// outer boundary and, for block meshes, γ lie exactly where they should. Immutable, threads may share it.
+/// The geometry is a smooth map of every unit cell. The maps of two neighbouring cells agree on their face up to
+/// rounding; the outer boundary and, for block meshes, γ are exact. Immutable, so threads can share it.
 class VolumeMesh {
  public:
   virtual ~VolumeMesh() = default;
@@ -32,22 +32,22 @@ class VolumeMesh {
   /// Centre and radius R of the outer sphere.
   [[nodiscard]] const Point& centre() const { return centre_; }
   [[nodiscard]] double outer_radius() const { return outer_radius_; }
-  /// The wall that the mesh ends on, if there is one.
+  /// The wall on which the mesh ends, if there is one.
   [[nodiscard]] const std::optional<Wall>& wall() const { return wall_; }
 
-  /// Position in space of a point of the unit cell.
+  /// Position in space of a point given in unit coordinates.
   [[nodiscard]] virtual Point physical(int cell, const Point& unit) const = 0;
   /// Many points of one cell, several times faster per point.
   [[nodiscard]] virtual std::vector<Point> physical_points(int cell, const std::vector<Point>& units) const = 0;
   /// Derivative of physical() with respect to the unit coordinates: column j belongs to coordinate j.
   [[nodiscard]] virtual Matrix3 jacobian(int cell, const Point& unit) const = 0;
-  /// Unit vector r̂(θ, φ) of a point of a membrane face; anything evaluated there takes its (θ, φ) from here.
+  /// Unit vector r̂(θ, φ) of a point of a membrane face; fields on γ are evaluated at this (θ, φ).
   /// @throws std::logic_error if the cell has no membrane face
   [[nodiscard]] virtual Point direction(int cell, const Point& unit) const = 0;
 
   /// Positions of all vertices, in the numbering of the topology.
   [[nodiscard]] std::vector<Point> vertex_positions() const;
-  /// Unit coordinates in the outside cell of the point that has `inside_unit` in the inside cell.
+  /// Unit coordinates in the outside cell of the point with coordinates `inside_unit` in the inside cell.
   [[nodiscard]] Point across(const InterfacePair& pair, const Point& inside_unit) const;
 
  protected:
@@ -63,19 +63,19 @@ class VolumeMesh {
   std::optional<Wall> wall_;
 };
 
-/// Membrane faces per edge of a block, layers and radii of the block mesh.
+/// Cells, layers and radii of the block mesh.
 struct BlockMeshOptions {
-  /// Along each of the edges that divide the membrane into 6 blocks; also in the core. Where cells are relaxed (see
-  /// make_block_mesh) an odd number becomes the next even one.
+  /// Along each edge of the 6 blocks that divide the membrane; also in the core. If the cells are relaxed (see
+  /// make_block_mesh), an odd number is increased by one.
   int cells_per_edge = 4;
   int blend_layers = 2;         ///< between core and membrane
   int shell_layers = 4;         ///< between membrane and outer sphere
   double blend_growth = 1.0;    ///< thickness of a blend layer over that of the next one towards the membrane
-  double shell_growth = 0.0;    ///< the same in the shell; 0: cells keep their proportions, (R/radius)^(1/layers)
-  double core_fraction = 0.6;   ///< half-width of the core over the width that the shape leaves it
+  double shell_growth = 0.0;    ///< the same in the shell; 0: similar cells, (R/radius)^(1/layers)
+  double core_fraction = 0.6;   ///< half-width of the core over the width available within the shape
   double outer_radius = 8.0;    ///< R, about the centroid of the shape
   bool split_interface = true;  ///< inside and outside share no vertex
-  double smallest_scaled_jacobian = 0.02;  ///< below it an element is too flat
+  double smallest_scaled_jacobian = 0.02;  ///< below this an element is too flat
 };
 
 class BlockMap;
@@ -97,35 +97,35 @@ class HexMesh final : public VolumeMesh {
   std::vector<Block> blocks_;
 };
 
-/// Cells run straight from the core to the membrane and on to the outer sphere (BlendedMap); where that folds them or
-/// makes them too flat, they are relaxed until they follow the shape (RelaxedMap).
-/// @throws MeshError if the outer sphere does not hold the shape, or if an element is inverted or too flat even so
+/// Cells run straight from the core to the membrane and on to the outer sphere (BlendedMap). If that folds them or
+/// makes them too flat, they are relaxed to follow the shape (RelaxedMap).
+/// @throws MeshError if the outer sphere does not enclose the shape, or if an element remains inverted or too flat
 /// @throws std::invalid_argument if an option is out of range
-/// Accuracy: membrane and outer sphere where they should be to 1e-13, neighbours meet to 1e-13
+/// Accuracy: points of membrane and outer sphere to 1e-13, neighbouring cells meet to 1e-13
 /// (tests/meshes/block_mesh_test.cpp)
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options = {});
 
-/// Whether make_block_mesh() has to relax the cells: a bowl folds straight lines.
+/// Whether make_block_mesh() relaxes the cells; needed for a bowl, in which straight lines fold.
 /// @throws MeshError if the outer sphere does not hold the shape; std::invalid_argument as make_block_mesh
 bool cells_have_to_be_relaxed(const FrozenShape& shape, const BlockMeshOptions& options);
 
-/// Meshes of one shape that differ in the layers of the shell alone, the inner layers at the same places in all: what
-/// it costs to follow a strongly bent shape is paid once.
+/// Meshes of one shape that differ only in the layers of the shell; the relaxation of the inner layers is computed once
+/// for all of them.
 /// @throws MeshError, std::invalid_argument as make_block_mesh
 std::vector<HexMesh> make_block_meshes(const FrozenShape& shape, const std::vector<BlockMeshOptions>& options);
 
-/// Sizes of the tetrahedral mesh. Lengths are in units of FrozenShape::radius() unless they say otherwise.
+/// Sizes of the tetrahedral mesh. Lengths are in units of FrozenShape::radius() unless stated otherwise.
 struct TetMeshOptions {
   double surface_size = 0.25;              ///< edge length on the membrane
   double growth = 0.35;                    ///< edge length = surface_size + growth · distance from the membrane
   double largest_size = 2.5;               ///< upper limit of the edge length
   double outer_radius = 8.0;               ///< R, an absolute length, about the centroid of the shape
   bool split_interface = true;             ///< inside and outside share no vertex
-  double smallest_scaled_jacobian = 0.01;  ///< below it an element is too flat
+  double smallest_scaled_jacobian = 0.01;  ///< below this an element is too flat
 };
 
-/// Quadratic tetrahedra of the true shape: edge midpoints of γ are x of the normalised mid-direction, those of the
-/// outer boundary lie on the sphere, all others halfway. Topology vertices are positions in space.
+/// Quadratic tetrahedra: edge midpoints on γ are x at the normalised mid-direction, those on the outer boundary lie on
+/// the sphere, all others are the midpoints of straight edges. Topology vertices are positions in space.
 class TetMesh final : public VolumeMesh {
  public:
   /// 10 nodes of a cell: its vertices, then the midpoints of the edges 01, 12, 20, 03, 13, 23 (deal.II's order).
@@ -147,11 +147,11 @@ class TetMesh final : public VolumeMesh {
   std::vector<Nodes> nodes_;
 };
 
-/// Where an element would be inverted or too flat, elements on the membrane are made smaller by 3 %, or 6 %.
-/// @throws MeshError if the mesher fails, the outer sphere does not hold the shape, or an element is inverted or too
-///         flat even so
+/// If an element is inverted or too flat, retries with elements on the membrane that are smaller by 3 %, then 6 %.
+/// @throws MeshError if the mesher fails, the outer sphere does not enclose the shape, or an element remains inverted
+/// or too flat
 /// @throws std::invalid_argument if an option is out of range
-/// Accuracy: volume and area of an order above 3 in the size; vertices and edge midpoints on the shape to 1e-13
+/// Accuracy: order above 3 in the size for volume and area; vertices and edge midpoints on the shape to 1e-13
 /// (tests/meshes/tetrahedral_mesh_test.cpp)
 TetMesh make_tetrahedral_mesh(const FrozenShape& shape, const TetMeshOptions& options = {});
 

@@ -7,11 +7,11 @@ namespace vehd::meshes {
 
 /// A plane that bounds the outside.
 struct Wall {
-  Point point = Point::Zero();    ///< any of the plane
-  Point normal = Point::UnitZ();  ///< unit, to the side of the membrane
+  Point point = Point::Zero();    ///< any point of the plane
+  Point normal = Point::UnitZ();  ///< unit vector towards the side of the membrane
 };
 
-/// Least distance of a membrane from the wall, over points of it; negative where it crosses the wall.
+/// Smallest distance of a membrane from the wall, over sample points; negative if it crosses the wall.
 double gap_to(const Wall& wall, const FrozenShape& shape);
 
 }  // namespace vehd::meshes

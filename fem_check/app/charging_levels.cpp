@@ -11,7 +11,7 @@
 namespace vehd::fem_check {
 namespace {
 
-/// V_m at the points of the comparison by elements of the lowest degrees, in any number of steps.
+/// V_m at the points of the comparison for any number of steps, with elements of low degree.
 class StepRefinement {
  public:
   StepRefinement(const ChargingRun& run, Meshes& meshes, const Report& report, double tolerance)
@@ -57,8 +57,8 @@ ChargingLevels solve_charging_levels(const CheckInput& input, Meshes& meshes, co
   const int degree = levels[0].degree;
   result.steps = 2 * fewest_steps;
   Eigen::MatrixXd finest = refined(degree, result.steps, path), change = finest - lowest;
-  // What the lowest degree gets wrong of the change by more steps, from the first doubling; then what the snapshots
-  // leave open of the way between them.
+  // Errors of the change by more steps: that of the lowest degree, from the first doubling, and that of the path
+  // between the snapshots.
   Eigen::MatrixXd further = (refined(levels[1].degree, result.steps, path) - next - change).cwiseAbs();
   if (path != nullptr) {
     const ShapePath coarser = path->coarser();

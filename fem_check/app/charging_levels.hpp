@@ -9,18 +9,18 @@
 
 namespace vehd::fem_check {
 
-/// V_m that the finite elements have advanced from an earlier snapshot, in all levels with the finest steps. Surface
-/// field: Vm.
+/// V_m that the finite elements have advanced from an earlier snapshot; every level includes the effect of the smallest
+/// time step. Surface field: Vm.
 struct ChargingLevels {
   LevelSequence sequence;
-  Eigen::MatrixXd time_error;           ///< of V_m by its steps, at the points of the comparison
+  Eigen::MatrixXd time_error;           ///< of V_m due to its time steps, at the points of the comparison
   std::optional<double> order_in_time;  ///< observed from the last three numbers of steps
   int steps = 0;                        ///< the largest number, between two discontinuities of the field
 };
 
-/// Advances V_m by backward differentiation of order 2. How many steps are enough is found with elements of the lowest
-/// degree; those of higher degrees take few steps, and what more of them change is added.
-/// @param input  with in_time
+/// Advances V_m by backward differentiation of order 2. The number of steps is chosen with elements of the lowest
+/// degree; higher degrees take few steps, and the change due to more steps at the lowest degree is added.
+/// @param input  must have in_time
 /// @throws SolveError, meshes::MeshError
 ChargingLevels solve_charging_levels(const CheckInput& input, Meshes& meshes, const Refinement& refinement,
                                      const Report& report);

@@ -12,7 +12,7 @@
 namespace vehd::fem_check {
 namespace {
 
-/// E_∞ in one piece between two discontinuities.
+/// E_∞ between two discontinuities.
 class FieldPiece {
  public:
   FieldPiece(const InTime& in_time, Eigen::Index number)
@@ -20,7 +20,7 @@ class FieldPiece {
 
   [[nodiscard]] double begin() const { return in_time_.field_times[first_]; }
   [[nodiscard]] double end() const { return in_time_.field_times[last_]; }
-  /// At a multiple of an interval.
+  /// E_∞ at a multiple of an interval.
   [[nodiscard]] Vector3 at(double time) const {
     const double share = (time - begin()) / (end() - begin());
     return in_time_.field.col(first_ + static_cast<Eigen::Index>(std::lround(share * in_time_.intervals)));
@@ -55,7 +55,7 @@ Solved ChargingRun::solve(const Discretisation& space, const ChargingPlan& plan)
   if (input_.wall) problem.wall = input_.wall->field;
   problem.tolerance = plan.settings.tolerance;
   problem.exterior_degree = plan.settings.exterior_degree;
-  // The points at which the steps have V_m.
+  // Points at which the steps represent V_m.
   const SurfacePoints rule = space.quadrature_points(space.points_per_edge());
   Vector value = SurfaceSeries(in_time.potential)(rule).row(0);
   std::optional<ChargingSteps> charging;

@@ -7,19 +7,19 @@
 
 namespace vehd::fem_check {
 
-/// How V_m is advanced.
+/// Settings of the advance of V_m.
 struct ChargingPlan {
   int steps;  ///< between two discontinuities of the field
   SolveSettings settings;
-  const ShapePath* path = nullptr;  ///< null: the shape stands still
+  const ShapePath* path = nullptr;  ///< null: the shape is constant
 };
 
-/// V_m on its way from an earlier snapshot to the state of the input. On a shape that moves, every step has its own
-/// mesh, with the same (θ, φ) at each node of γ; V_m of the nodes changes by charging and by their sliding along the
-/// membrane, dV/dt at (θ, φ) = −(σ_i ∂φ_i/∂n + G_m V)/C_m + (dx/dt − v)·∇_γ V.
+/// Advances V_m from an earlier snapshot to the state of the input. If the shape moves, every step has its own mesh
+/// with equal (θ, φ) at corresponding nodes of γ; V_m at a node changes by charging and by the motion of the node along
+/// the membrane, dV/dt at (θ, φ) = −(σ_i ∂φ_i/∂n + G_m V)/C_m + (dx/dt − v)·∇_γ V.
 class ChargingRun {
  public:
-  /// @param input  with in_time; both must outlive it
+  /// @param input  must have in_time; input and refinement must outlive this object
   ChargingRun(const CheckInput& input, const Refinement& refinement);
 
   /// Surface field at the points of the comparison: Vm.
@@ -28,12 +28,12 @@ class ChargingRun {
   [[nodiscard]] Solved solve(const Discretisation& space, const ChargingPlan& plan) const;
 
  private:
-  /// Of a shape, with the degree and the points of γ of another discretisation.
+  /// Discretisation of a shape with the degree and the points of γ of another one.
   [[nodiscard]] Discretisation discretise(const Eigen::MatrixXd& position, const Discretisation& like) const;
 
   const CheckInput& input_;
   const Refinement& refinement_;
-  Matrix3 in_directions_;  // of the cube of the meshes
+  Matrix3 in_directions_;  // axes of the cube of the meshes
 };
 
 }  // namespace vehd::fem_check

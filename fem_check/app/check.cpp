@@ -18,7 +18,7 @@ void add(CheckResult& result, const std::vector<FieldQuestion>& questions, const
   for (const FieldQuestion& question : questions) result.fields.push_back(compare(question, sequence, required));
 }
 
-/// Before the work, not after it.
+/// Called before the computation, so that a failure is reported at once.
 void require_directory(const std::filesystem::path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
@@ -52,7 +52,7 @@ double stored_velocity_difference(const CheckInput& input, const SurfacePoints& 
   return root_mean_square(change, points.weight) / std::max(root_mean_square(own, points.weight), 1e-300);
 }
 
-/// Of the checks that are asked for: targets that leave room for what is required, and cells that follow the bends.
+/// Refinement for the requested check: targets well below the required error, and cells that suit the curvature.
 Refinement refinement_for(const CheckTask& task, const std::vector<CheckInput>& inputs,
                           const std::vector<meshes::FrozenShape>& shapes) {
   const bool single = shapes.size() == 1;
@@ -80,7 +80,7 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, c
   const CheckInput& input = inputs.front();
   const meshes::FrozenShape shape(input.position);
   SolvedState solved;
-  // Fields are taken at the same points of γ on every level: those of the finest geometry that any level has.
+  // Fields are evaluated at the same points of γ on every level: those of the finest geometry.
   solved.places = {geometry.quadrature_points(refinement.points_per_edge), shape.radius(), shape.centroid()};
   solved.outer_radius = meshes.outer_radius();
   const bool single = inputs.size() == 1;
@@ -99,7 +99,7 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, c
 
 namespace {
 
-/// What was found on the membrane of one vesicle.
+/// The part of the solutions on the membrane of one vesicle.
 class OneVesicle {
  public:
   OneVesicle(const SolvedState& solved, const CheckInput& input, int number)
@@ -126,7 +126,7 @@ class OneVesicle {
   SolvedState part_;
 };
 
-/// Without any row.
+/// Result without rows.
 CheckResult result_of(const CheckInput& input, const SolvedState& solved, double required) {
   CheckResult result;
   result.source = input.source;
@@ -136,7 +136,7 @@ CheckResult result_of(const CheckInput& input, const SolvedState& solved, double
   return result;
 }
 
-/// @param solved  on the membrane of this vesicle alone
+/// @param solved  on the membrane of this vesicle only
 CheckResult judge_vesicle(const CheckInput& input, const SolvedState& solved, double required_error) {
   CheckResult result = result_of(input, solved, required_error);
   const Requirement required{required_error, input.solver_tolerance};

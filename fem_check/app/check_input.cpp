@@ -18,7 +18,7 @@ void require_schema(const Hdf5Input& file) {
   }
 }
 
-/// What a file has of one vesicle, by the same names whether it is the only one, at the top, or has a group of its own.
+/// Data of one vesicle in a file, with equal names at the top level (a single vesicle) or in its group.
 class VesicleGroup {
  public:
   VesicleGroup(const Hdf5Input& file, std::string group) : file_(file), group_(std::move(group)) {}
@@ -47,7 +47,7 @@ std::optional<InputWall> read_wall(const Hdf5Input& file) {
   return wall;
 }
 
-/// Of all vesicles.
+/// Groups of all vesicles.
 std::vector<VesicleGroup> vesicle_groups(const Hdf5Input& file) {
   if (!file.has("/vesicles")) return {{file, ""}};
   std::vector<VesicleGroup> groups;
@@ -75,7 +75,7 @@ Physics read_physics(const VesicleGroup& file) {
   physics.spontaneous_curvature = file.number("/physics", "spontaneous_curvature");
   physics.weight = matrix_of_size(file, "/physics/weight", 3, 1);
   physics.inextensible = file.number("/physics", "inextensible") != 0.0;
-  // Rows of the file are columns here.
+  // The file stores the transpose.
   physics.flow_gradient = matrix_of_size(file, "/physics/flow_gradient", 3, 3).transpose();
   if (!file.has("/given/Vm")) return physics;
   physics.conductivity_in = file.number("/physics", "conductivity_in");
@@ -89,7 +89,7 @@ Physics read_physics(const VesicleGroup& file) {
 
 Eigen::Index n_coefficients(int order) { return Eigen::Index{order + 1} * (order + 1); }
 
-/// What every file with this problem has, and what only some have: [n_coefficients x components].
+/// Required and optional fields of a group, [n_coefficients x components].
 class Coefficients {
  public:
   Coefficients(const VesicleGroup& file, std::string group, int order)
@@ -158,7 +158,7 @@ StoredFields read_stored(const VesicleGroup& file, const CheckInput& input) {
   return stored;
 }
 
-/// With the values of both orders at the points.
+/// Reads the sample points and the values of both orders there.
 void read_samples(const VesicleGroup& file, CheckInput& input) {
   if (!file.has("/samples")) return;
   Samples& samples = input.samples;

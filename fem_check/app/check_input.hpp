@@ -10,10 +10,10 @@
 #include "meshes/wall.hpp"
 
 /// Input from the boundary-integral side, docs/check.md. Fields on γ are spherical-harmonic coefficients,
-/// [n_coefficients x components]; an empty one is absent.
+/// [n_coefficients x components]; an empty matrix is an absent field.
 namespace vehd::fem_check {
 
-/// Fluids, membrane, field and flow of the frozen state.
+/// Fluids, membrane, electric field and flow of the frozen state.
 struct Physics {
   Vector3 field = Vector3::Zero();  ///< E_∞
   double conductivity_in = 1.0, conductivity_out = 1.0;
@@ -30,27 +30,27 @@ struct Physics {
 /// Boundary-integral solution at one order.
 struct BieFields {
   int order = 0;
-  // Of x and V_m alone.
+  // Determined by x and V_m only.
   Eigen::MatrixXd charge, force_electric, potential_rate;
-  /// Share in potential_rate of what G_m of pores loses in truncation; in the order of the state only.
+  /// Error of potential_rate from truncating G_m of pores; only in the order of the state.
   Eigen::MatrixXd rate_truncation;
-  Eigen::MatrixXd potential_of_charges, free_charge_rate;  ///< with displacement currents alone
-  // In a degree of their own where `order` is not that of the state.
+  Eigen::MatrixXd potential_of_charges, free_charge_rate;  ///< only with displacement currents
+  // Their degree differs from `order` if `order` is not that of the state.
   Eigen::MatrixXd force_bending;    ///< f_b
   Eigen::MatrixXd force_curvature;  ///< f_c of a spontaneous curvature
 
   Eigen::MatrixXd force_tension, tension;
-  bool tension_is_free = false;         ///< a uniform tension does nothing
-  double dilation = 0.0;                ///< ∇_γ·v that the constraint asks for
-  Eigen::MatrixXd velocity_of_shape;    ///< of all these forces
-  Eigen::MatrixXd velocity_truncation;  ///< of what these forces lose in truncation; in the order of the state only
+  bool tension_is_free = false;         ///< a uniform tension has no effect
+  double dilation = 0.0;                ///< ∇_γ·v prescribed by the constraint
+  Eigen::MatrixXd velocity_of_shape;    ///< under all these forces
+  Eigen::MatrixXd velocity_truncation;  ///< due to the truncated part of these forces; only in the order of the state
 
-  Eigen::MatrixXd steady_potential, steady_charge;    ///< membrane law
-  Eigen::MatrixXd velocity, velocity_own_force;       ///< force given; with the f_E of this order in it
+  Eigen::MatrixXd steady_potential, steady_charge;    ///< under the membrane law
+  Eigen::MatrixXd velocity, velocity_own_force;       ///< with the force given; with f_E of this order in it
   Eigen::MatrixXd sample_potential, sample_velocity;  ///< [n_samples x components]
 };
 
-/// Numbers of the snapshot that are judged.
+/// Fields of the snapshot that are judged.
 struct StoredFields {
   Eigen::MatrixXd charge, force_electric, force_bending, force_tension, tension, velocity;
 };
@@ -62,47 +62,47 @@ struct Samples {
   std::vector<bool> near;  ///< within one grid spacing of γ
 };
 
-/// V_m of an earlier snapshot, and what acts on it from there to the time of the file.
+/// V_m of an earlier snapshot, and the field and shape between it and the time of the file.
 struct InTime {
   double begin = 0.0;
-  Eigen::MatrixXd potential;  ///< V_m there
-  /// Evenly spaced between two discontinuities of the field, `intervals` of them; a discontinuity is there twice.
+  Eigen::MatrixXd potential;  ///< V_m at `begin`
+  /// Evenly spaced between two discontinuities of the field, in `intervals` intervals; a discontinuity occurs twice.
   Vector field_times;
-  Vectors field;  ///< E_∞ at each of them
+  Vectors field;  ///< E_∞ at these times
   int intervals = 0;
-  /// Of snapshots on the way, or the last one alone if the shape stands still.
+  /// Times of the snapshots in this interval, or only that of the last one if the shape is constant.
   Vector shape_times;
   std::vector<Eigen::MatrixXd> positions;
-  std::vector<Eigen::MatrixXd> velocities;  ///< of the membrane's material; empty if the shape stands still
+  std::vector<Eigen::MatrixXd> velocities;  ///< of the membrane's material; empty if the shape is constant
   Eigen::MatrixXd bie, bie_high;            ///< V_m at the time of the file, by boundary integrals with two step sizes
-  Eigen::MatrixXd by_motion;                ///< what finer steps of the moving shape change; empty: it stands still
+  Eigen::MatrixXd by_motion;                ///< effect of smaller steps of a moving shape on V_m; else empty
 
   [[nodiscard]] bool moves() const { return positions.size() > 1; }
 };
 
-/// A wall beside the vesicle, and what holds there.
+/// A wall beside the vesicle, and the conditions on it.
 struct InputWall {
   meshes::Wall place;
   WallFlow flow = WallFlow::no_slip;
   WallField field = WallField::insulating;
 };
 
-/// All that the file holds of one vesicle.
+/// Contents of the file for one vesicle.
 struct CheckInput {
   std::string source;
-  std::string name;  ///< of the vesicle; empty where there is only one
+  std::string name;  ///< of the vesicle; empty if there is only one
   double time = 0.0;
   Eigen::MatrixXd position;
   Physics physics;
   std::optional<InputWall> wall;
   Eigen::MatrixXd potential;                        ///< V_m of the snapshot
-  Eigen::MatrixXd conductance, pump_current;        ///< G_m where it varies, and J_p, outwards
-  Eigen::MatrixXd free_charge_in, free_charge_out;  ///< q_i and q_e of its faces; with displacement currents alone
-  Eigen::MatrixXd force;                            ///< f on the fluid
+  Eigen::MatrixXd conductance, pump_current;        ///< G_m if it varies, and J_p, positive outwards
+  Eigen::MatrixXd free_charge_in, free_charge_out;  ///< q_i and q_e of the faces; only with displacement currents
+  Eigen::MatrixXd force;                            ///< f, force of the membrane on the fluid
   StoredFields stored;
-  double solver_tolerance = 0.0;  ///< at which the solvers of the run stop
-  BieFields bie;                  ///< in the order of the state: what is compared
-  BieFields bie_high;             ///< in another one: what estimates the error of the first
+  double solver_tolerance = 0.0;  ///< at which the solvers of the run stopped
+  BieFields bie;                  ///< in the order of the state: the fields that are compared
+  BieFields bie_high;             ///< in another order: estimates the error of `bie`
   Samples samples;
   std::optional<InTime> in_time;
 
@@ -113,20 +113,20 @@ struct CheckInput {
   [[nodiscard]] bool flow() const { return force.size() > 0; }
 };
 
-/// Of each vesicle; source, time, what is outside and the far field are those of all.
-/// @throws InputError if the file cannot be used or lacks a field that is compared
+/// Reads the inputs of all vesicles; source, time, outer fluid and far field are equal in all of them.
+/// @throws InputError if the file cannot be used or does not contain a field that is compared
 std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path);
 
-/// The scene or run that a file was made from; its own name where it does not say. @throws InputError
+/// The scene or run from which a file was made; the path of the file if this is not recorded. @throws InputError
 std::string source_of(const std::filesystem::path& path);
 
-/// Shapes to be meshed.
+/// Shapes to mesh.
 struct InputShapes {
-  std::vector<Eigen::MatrixXd> positions;  ///< coefficients of x, of each vesicle
+  std::vector<Eigen::MatrixXd> positions;  ///< coefficients of x for each vesicle
   std::optional<meshes::Wall> wall;
 };
 
-/// Of any file of the boundary-integral side. @throws InputError
+/// Reads the shapes of any file from the boundary-integral side. @throws InputError
 InputShapes read_shapes(const std::filesystem::path& path);
 
 }  // namespace vehd::fem_check

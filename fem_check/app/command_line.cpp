@@ -18,7 +18,7 @@
 namespace vehd::fem_check {
 namespace {
 
-/// What coarse elements are asked for: signs, sides and conditions, and the first digit of small remainders.
+/// Requirement for coarse elements: it verifies signs, sides and conditions, and the first digit of small remainders.
 constexpr double required_when_quick = 0.05;
 
 /// Exit codes of vehd: done, whatever the verdict, since mpirun reports any other code as a failure; wrong input;
@@ -33,7 +33,7 @@ void write_json(const std::string& path, const nlohmann::json& json) {
   if (!file) throw InputError(path + ": cannot be written");
 }
 
-/// Names the rows that do not agree.
+/// Prints the names of the rows that do not agree.
 void print_reasons(const CheckResult& result) {
   const std::vector<std::string> wrong = result.rows_with(Verdict::disagree),
                                  open = result.rows_with(Verdict::undecided);
@@ -120,7 +120,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? done : refused;
   }
-  // Not for a page of help: MPI leaves files of its own where it is killed.
+  // Not needed for a help page: if killed, MPI leaves temporary files behind.
   const Session session;
   try {
     if (mesh_command->parsed()) return mesh(mesh_task, json_file);

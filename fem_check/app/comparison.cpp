@@ -10,30 +10,30 @@
 namespace vehd::fem_check {
 namespace {
 
-/// Of the natural size of a field: a rounding error in x, times the fourth power of degree 48 for the derivatives of
-/// f_b.
+/// Rounding error relative to the natural size of a field: that of x times the fourth power of degree 48 for the
+/// derivatives in f_b.
 constexpr double rounding = 1e-9;
-/// Errors that a tolerance leaves, over what it would be if they fell like residuals.
+/// Error left by a solver tolerance, over its value if errors decreased like residuals.
 constexpr double solver_factor = 10.0;
-/// Error that a tolerance leaves over what it changes when it is made coarser by rough_factor.
+/// Error left by a solver tolerance, over the change when the tolerance is made rough_factor times larger.
 constexpr double solver_share = solver_factor / rough_factor;
-/// Slowest power of the mesh size that levels are taken to converge with.
+/// Lowest order of convergence in the mesh size that is assumed for levels.
 constexpr double slowest_order = 1.0;
-/// Levels that differ by a larger share of the field do not show an order yet.
+/// If levels differ by more than this fraction of the field, the observed order is not used.
 constexpr double largest_change_with_an_order = 0.1;
-/// Power of the degree that boundary integrals are not taken to converge faster than: at twice the degree a sixteenth
-/// is left.
+/// Highest assumed order of convergence of boundary integrals in the degree: doubling the degree leaves a sixteenth of
+/// the error.
 constexpr double slowest_degree_order = 4.0;
 
-/// What the last level leaves over the change to it, if errors are a power of the mesh size N^(−1/3); never less than
-/// all of that change, as a high order is known from two changes alone.
-/// @param growth  of the unknowns from the level before
+/// Error of the last level over the change to it, if errors are a power of the mesh size N^(−1/3); at least 1, since a
+/// high order is inferred from two changes only.
+/// @param growth  number of unknowns over that of the level before
 double order_tail(double order, double growth) {
   return std::max(1.0, 1.0 / (std::pow(growth, std::max(order, slowest_order) / 3.0) - 1.0));
 }
 
-/// @param changes  of the last two levels, over the field
-/// @param n_unknowns  of the last three
+/// @param changes  of the last two levels, relative to the field
+/// @param n_unknowns  of the last three levels
 std::optional<Convergence> convergence(const std::array<double, 2>& changes, const std::array<double, 3>& n_unknowns) {
   if (!(changes[0] > 0.0 && changes[1] > 0.0)) return {};
   Convergence result;
@@ -43,10 +43,10 @@ std::optional<Convergence> convergence(const std::array<double, 2>& changes, con
   return result;
 }
 
-/// Error e_p of the lower of two degrees p < P if errors fall geometrically, e_n = r^n of the field, and e_p − e_P is
-/// the change: as slowly as if degree 0 missed all of the field. A change too large for any r says nothing.
+/// Error e_p of the lower of two degrees p < P if errors decrease geometrically, e_n = r^n of the field, and e_p − e_P
+/// is the change: slow decay, from an error at degree 0 as large as the field. A change too large for any r gives ≥ 1.
 double error_of_slow_decay(double change, double growth) {
-  // e − e^growth = change, below where the left side is largest.
+  // Solves e − e^growth = change below the maximum of the left side.
   const double largest = std::pow(growth, -1.0 / (growth - 1.0));
   if (change >= largest - std::pow(largest, growth)) return std::max(1.0, change);
   double low = 0.0, high = largest;
@@ -57,9 +57,8 @@ double error_of_slow_decay(double change, double growth) {
   return high;
 }
 
-/// What the judged degree leaves over the change to the other one, which leaves something as well: by the decay of the
-/// coefficients, no slower than error_of_slow_decay, no faster than by a power of the degree, and never less than all
-/// of the change.
+/// Error of the judged degree over the change to the other one, which has an error too: from the decay of the
+/// coefficients, no slower than error_of_slow_decay, no faster than a power of the degree, and at least 1.
 double degree_tail(double change, const Degrees& degrees) {
   if (!(change > 0.0) || degrees.judged == degrees.other) return 1.0;
   const double growth =
@@ -70,7 +69,7 @@ double degree_tail(double change, const Degrees& degrees) {
   return std::max(1.0, degrees.judged < degrees.other ? of_lower : of_lower - 1.0);
 }
 
-/// Of a level, as the question wants them; empty where the level has none.
+/// Field of a level in the form required by the question; empty if the level does not have it.
 Eigen::MatrixXd values_of(const FieldQuestion& question, const Level& level) {
   const FieldValues& fields = question.is_sample ? level.samples : level.surface;
   const auto found = fields.find(question.values);
@@ -80,8 +79,8 @@ Eigen::MatrixXd values_of(const FieldQuestion& question, const Level& level) {
   return question.from_level ? question.from_level(values) : values;
 }
 
-/// Relative to the field: to the larger of what is judged and what it is judged by, so that neither hides the other,
-/// and to the size below which it vanishes.
+/// Norms relative to the larger of the judged field and its reference, so that neither hides the other, but at least to
+/// the size below which a field counts as zero.
 class Measure {
  public:
   Measure(const FieldQuestion& question, const Eigen::MatrixXd& by, double required) : weight_(question.weight) {
@@ -96,7 +95,7 @@ class Measure {
   [[nodiscard]] Norms operator()(const Eigen::MatrixXd& difference) const {
     return {norm(difference) / l2_, largest(difference) / max_};
   }
-  /// Of a root mean square.
+  /// A root mean square relative to the same size.
   [[nodiscard]] double share_of(double size) const { return size * std::sqrt(weight_.sum()) / l2_; }
 
  private:
@@ -111,20 +110,20 @@ class Measure {
 };
 
 Verdict verdict_of(const FieldComparison& field, double required) {
-  // Written so that a NaN never agrees.
+  // Written so that NaN gives disagree.
   if (!(field.difference.l2 <= field.fem_error() + field.bie_error())) return Verdict::disagree;
   const bool precise = field.fem_error() <= required && field.bie_error() <= required;
   return precise ? Verdict::agree : Verdict::undecided;
 }
 
-/// By the last levels, which have the values.
+/// Compares with the levels that have the field.
 void compare_with_levels(const FieldQuestion& question, const LevelSequence& sequence, const Measure& measure,
                          const std::vector<Eigen::MatrixXd>& values, const std::vector<double>& n_unknowns,
                          FieldComparison& result) {
   for (const Eigen::MatrixXd& of_level : values) result.of_levels.push_back(measure(question.judged - of_level));
   const std::size_t last = values.size() - 1;
   result.difference = result.of_levels.back();
-  // One level alone says nothing of its error.
+  // A single level gives no estimate of its error.
   const double unknown = std::numeric_limits<double>::infinity();
   result.levels_change = last > 0 ? measure(values[last] - values[last - 1]) : Norms{unknown, unknown};
   const Level& repeated = sequence.levels[static_cast<std::size_t>(sequence.repeated)];

@@ -9,7 +9,7 @@
 
 namespace vehd::fem_check {
 
-/// Relative L2(γ) and maximum norm of a difference; over sample points, root mean square and maximum.
+/// Relative L2(γ) and maximum norms of a difference; at sample points, root mean square and maximum.
 struct Norms {
   double l2 = 0.0;
   double max = 0.0;
@@ -19,7 +19,7 @@ struct Norms {
 enum class Verdict {
   agree,     ///< the difference is within the errors, and both errors are as small as required
   disagree,  ///< the difference is larger than both errors together
-  undecided  ///< the errors are too large to tell
+  undecided  ///< the difference is within the errors, but these are too large
 };
 
 /// "agree", "disagree", "undecided".
@@ -28,102 +28,102 @@ const char* name_of(Verdict verdict);
 /// Reference of a comparison.
 enum class Judge {
   elements,            ///< the finite elements
-  boundary_integrals,  ///< what boundary integrals find anew: no element has a part in it
-  constraint           ///< zero, which the constraint of the membrane makes it
+  boundary_integrals,  ///< a new boundary-integral solution, without finite elements
+  constraint           ///< zero, as the constraint of the membrane requires
 };
 
 /// "elements", "boundary integrals", "constraint".
 const char* name_of(Judge judge);
 
-/// Part of the table that a row belongs to.
+/// Part of the table to which a row belongs.
 enum class RowGroup {
-  fields,      ///< shape, V_m and force given
-  from_shape,  ///< shape, V_m and the physics given
-  stored,      ///< the number judged is one of the snapshot
+  fields,      ///< shape, V_m and force are given
+  from_shape,  ///< shape, V_m and material parameters are given
+  stored,      ///< the field judged is stored in the snapshot
   in_time      ///< advanced from an earlier snapshot
 };
 
-/// One field by both methods: the finest level against the boundary integrals in the order of the state.
+/// Comparison of one field: the finest level against the boundary integrals in the order of the state.
 struct FieldComparison {
   std::string name;   ///< in the JSON
   std::string label;  ///< in the table
   RowGroup group = RowGroup::fields;
   Norms difference;
   Norms levels_change;           ///< last level against the one before
-  double tail = 1.0;             ///< what the last level leaves, over that change; above 1 where levels converge slowly
-  Norms truncation;              ///< of the outer sphere, from fewer harmonics that are exact there
-  double solver = 0.0;           ///< what the linear solvers leave, from coarser ones
-  double time = 0.0;             ///< of the steps in time; FieldQuestion::time_error
+  double tail = 1.0;             ///< error of the last level over that change; above 1 if levels converge slowly
+  Norms truncation;              ///< of the outer sphere, from a solution with fewer exact harmonics
+  double solver = 0.0;           ///< error left by the linear solvers, from looser tolerances
+  double time = 0.0;             ///< error of the time steps; FieldQuestion::time_error
   Norms bie_change;              ///< degree p against the other degree
-  double bie_tail = 1.0;         ///< what degree p leaves, over that change
+  double bie_tail = 1.0;         ///< error of degree p over that change
   double bie_further = 0.0;      ///< FieldQuestion::further_error
-  double floor = 0.0;            ///< of rounding and of the solvers of the run, see compare()
+  double floor = 0.0;            ///< rounding and solver errors of the run, see compare()
   std::optional<double> order;   ///< observed, in the mesh size N^(−1/3), N unknowns
-  std::vector<Norms> of_levels;  ///< difference of every level that has the field
+  std::vector<Norms> of_levels;  ///< difference at every level that has the field
   Judge judge = Judge::elements;
   Verdict verdict = Verdict::undecided;
   bool has_work_row = false;  ///< FieldQuestion::has_work_row
 
   [[nodiscard]] double fem_error() const { return tail * levels_change.l2 + truncation.l2 + solver + time; }
   [[nodiscard]] double bie_error() const { return bie_tail * bie_change.l2 + bie_further + floor; }
-  /// In the verdict of the whole check.
+  /// Whether the row contributes to the verdict of the whole check.
   [[nodiscard]] bool counts() const { return !has_work_row || verdict != Verdict::undecided; }
 };
 
-/// Degrees of two solutions of one field; equal where a change between them has nothing to do with their degrees.
+/// Degrees of two solutions of one field; equal if a change between them is not due to their degrees.
 struct Degrees {
   int judged = 0, other = 0;
-  /// Of the size of the coefficients from one of the two to the other, in the finer solution; empty: not known.
+  /// Factor by which the coefficients decrease from one degree to the other, in the finer solution; empty: unknown.
   std::optional<double> decay;
 };
 
-/// Values that are compared, at points, [components x points].
+/// A field to compare, [components x points].
 struct FieldQuestion {
   std::string name;
   std::string label;
   RowGroup group = RowGroup::fields;
-  Eigen::MatrixXd judged;         ///< the number under judgement
-  Eigen::MatrixXd bie, bie_high;  ///< boundary integrals at both degrees, whose change estimates the error of `judged`
-  Degrees degrees;                ///< of these two
-  Eigen::MatrixXd further_error;  ///< what else that number may be off by; empty: nothing
-  Eigen::MatrixXd time_error;     ///< of what the levels have, by their steps in time; empty: none
-  Judge judge = Judge::elements;  ///< else it is judged by `bie`
-  std::string values;             ///< name in the levels of what the elements judge by
-  /// From what the levels have to what is judged; empty: the same.
+  Eigen::MatrixXd judged;         ///< the field that is judged
+  Eigen::MatrixXd bie, bie_high;  ///< boundary integrals at both degrees; their change estimates the error of `judged`
+  Degrees degrees;                ///< of `bie` and `bie_high`
+  Eigen::MatrixXd further_error;  ///< other errors of `judged`; empty: none
+  Eigen::MatrixXd time_error;     ///< error of the levels due to their time steps; empty: none
+  Judge judge = Judge::elements;  ///< otherwise `bie` is the reference
+  std::string values;             ///< name of the reference field in the levels
+  /// Maps a field of the levels to the field that is compared; empty: the identity.
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> from_level;
-  Vector weight;                      ///< of the points
-  std::vector<Eigen::Index> columns;  ///< of the level's values; empty: all
+  Vector weight;                      ///< quadrature weights of the points
+  std::vector<Eigen::Index> columns;  ///< columns of the level's values; empty: all
   bool is_sample = false;
-  /// Another row judges the work of this force: where this row is undecided, that one counts in its place.
+  /// Another row compares the work of this force, and counts instead if this row is undecided.
   bool has_work_row = false;
-  /// Of such a field in this problem, root mean square: the terms that it is made of, of which it may be what remains.
+  /// Typical size of such a field in this problem, root mean square: that of its terms, which can cancel.
   double natural_size = 1.0;
-  /// Of the whole field, root mean square, where the points are a part of those that it is known at; 0: these are all.
+  /// Root mean square of the whole field if the points are only a part of it; 0: the points are all of it.
   double whole_size = 0.0;
-  /// Relative to the natural size whatever the size of the field: a sum of terms of that size that may cancel.
+  /// Errors are relative to the natural size, whatever the size of the field: its terms can cancel.
   bool is_remainder = false;
 };
 
-/// How the levels of a field converge.
+/// Convergence of the levels of a field.
 struct Convergence {
-  double order = 0.0;  ///< observed from the last three, in the mesh size N^(−1/3), N unknowns
-  double tail = 1.0;   ///< what the last level leaves, over the change to it
+  double order = 0.0;  ///< observed from the last three levels, in the mesh size N^(−1/3), N unknowns
+  double tail = 1.0;   ///< error of the last level, over its change from the level before
 };
 
-/// Of a surface field of a sequence; nothing where it has less than three levels that differ. Root mean square over the
-/// points.
+/// Convergence of a surface field of a sequence, in the root mean square over the points; empty unless there are three
+/// different levels.
 std::optional<Convergence> convergence_of(const LevelSequence& sequence, const std::string& field);
 
 /// Requirements on both methods.
 struct Requirement {
-  double error = 0.0;             ///< share of the field that each error may reach for both to agree
-  double solver_tolerance = 0.0;  ///< at which the solvers of the run stop
+  double error = 0.0;             ///< largest error of each method, relative to the field, for which both agree
+  double solver_tolerance = 0.0;  ///< at which the solvers of the run stopped
 };
 
-/// The errors of both methods and what stands between them.
+/// Computes the errors of both methods and the difference between them.
 ///
-/// A field is measured by its size, and a smaller one than the required share of its natural size by that share: it
-/// vanishes for what is required. No error is below what rounding and the solvers of the run leave of the natural size.
+/// Errors are relative to the size of the field but at least to the required fraction of its natural size, below which
+/// it counts as zero. The error of the run includes rounding and solver errors relative to the natural size.
 FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequence, const Requirement& required);
 
 }  // namespace vehd::fem_check

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int surface_intervals = 8;
 constexpr int volume_intervals = 4;
-/// Smallest relative difference that the picture tells from zero.
+/// Smallest relative difference shown in the figure.
 constexpr double smallest_shown = 1e-12;
 
 struct BothFields {

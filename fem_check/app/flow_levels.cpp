@@ -40,12 +40,12 @@ FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, Meshes& mesh
 
 namespace {
 
-/// Velocity on γ of forces alone, without a background flow, at any degree.
+/// Velocity on γ due to forces without a background flow, at any degree.
 class ForceFlows {
  public:
   ForceFlows(Meshes& meshes, FlowSetups& setups, const Refinement& refinement, const Report& report)
       : meshes_(meshes), setups_(setups), refinement_(refinement), report_(report), problem_(setups.problem()) {
-    // Of a flow that is small beside the one that it is added to.
+    // Larger tolerance, since this flow is small compared with the one to which it is added.
     problem_.tolerance = std::max(refinement.flow_tolerance, tolerance_of_changes);
   }
 
@@ -73,14 +73,14 @@ class ForceFlows {
 void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSetups& setups,
                    const Refinement& refinement, const PotentialLevels& potential, LevelSequence& sequence,
                    const Report& report) {
-  // An error of this share of the flow's own hides behind it.
+  // An error below this fraction of the flow's own error is negligible.
   constexpr double negligible_share = 0.25;
   Level &last = sequence.levels.back(), &before = sequence.levels[sequence.levels.size() - 2];
   const SurfaceSeries given = series_of(inputs, [](const CheckInput& input) { return input.stored.force_electric; });
   const PotentialSolution &electric = potential.solutions.back(),
                           &electric_before = potential.solutions[potential.solutions.size() - 2];
   ForceFlows flows(meshes, setups, refinement, report);
-  // f = … − f_E: what the elements' own f_E does in place of the snapshot's.
+  // f = … − f_E: replaces the snapshot's f_E by that of the elements.
   const VectorOnSurface change = [&](const SurfacePoints& at) {
     return Vectors(given(at) - electric.on_surface(at).force);
   };
@@ -95,7 +95,7 @@ void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSe
     coarse = std::exchange(fine, flows.velocity(degree, change));
     if ((fine - coarse).norm() <= enough) break;
   }
-  // The two levels differ by the errors of all that went into them: flow, change and f_E.
+  // The difference of the two levels includes all errors: of the flow, of the change and of f_E.
   last.surface["velocity_own_force"] = last.surface.at("velocity") + fine;
   before.surface["velocity_own_force"] =
       before.surface.at("velocity") + coarse + flows.velocity(first, electric_change);

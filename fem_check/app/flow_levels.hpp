@@ -19,14 +19,14 @@ struct FlowLevels {
 };
 
 /// Solves the flow with the given force.
-/// @param inputs  of all vesicles of the meshes; samples are those of the first
+/// @param inputs  of all vesicles of the meshes; the samples are those of the first
 /// @throws SolveError
 FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSetups& setups,
                              const Refinement& refinement, const Report& report);
 
-/// Adds velocity_own_force, with the f_E of the finite elements in the force in place of the snapshot's, to the last
-/// two levels. Stokes flow is linear: only the change is solved, with the degree rising until its error is small beside
-/// that of the flow; what is left of it, and the error of f_E, stand between the two levels.
+/// Adds velocity_own_force, with f_E of the finite elements instead of the snapshot's in the force, to the last two
+/// levels. Stokes flow is linear, so only the change is solved, at rising degree until its error is small compared with
+/// that of the flow; the two levels differ by the remaining error and by that of f_E.
 void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSetups& setups,
                    const Refinement& refinement, const PotentialLevels& potential, LevelSequence& sequence,
                    const Report& report);

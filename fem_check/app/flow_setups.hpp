@@ -7,16 +7,15 @@
 
 namespace vehd::fem_check {
 
-/// Operators of the flows of a check at any degree: all its flows are between the same fluids, and many have the same
-/// degree.
+/// Operators of the flows of a check at any degree: all flows have the same fluids, and many have the same degree.
 class FlowSetups {
  public:
   explicit FlowSetups(const std::vector<CheckInput>& inputs);
 
-  /// Made once for each degree.
-  /// @param space  of one mesh in all calls
+  /// Operators on a discretisation, set up once for each degree.
+  /// @param space  on the same mesh in all calls
   [[nodiscard]] const FlowOperators& at(const Discretisation& space);
-  /// A problem between these fluids, all else as a FlowProblem has it by itself.
+  /// A problem with these fluids; all other members have their defaults.
   [[nodiscard]] FlowProblem problem() const;
 
  private:

@@ -8,7 +8,7 @@
 namespace vehd::fem_check {
 namespace {
 
-/// Closes an identifier with the function of its kind.
+/// Closes an identifier with the function for its type.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -26,7 +26,7 @@ class Handle {
 };
 
 constexpr int largest_rank = 2;
-/// Most numbers that deflate makes of one.
+/// Maximum compression ratio of deflate.
 constexpr hsize_t most_inflation = 1032;
 
 }  // namespace
@@ -46,7 +46,7 @@ Hdf5Input::~Hdf5Input() {
 void Hdf5Input::refuse(const std::string& problem) const { throw InputError(fmt::format("{}: {}", name_, problem)); }
 
 bool Hdf5Input::has(const std::string& object) const {
-  // H5Lexists wants every group on the way to exist.
+  // H5Lexists requires all parent groups to exist.
   for (std::size_t slash = object.find('/', 1);; slash = object.find('/', slash + 1)) {
     if (H5Lexists(file_, object.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
     if (slash == std::string::npos) return true;
@@ -63,7 +63,7 @@ Eigen::MatrixXd Hdf5Input::matrix(const std::string& dataset) const {
   H5Sget_simple_extent_dims(space.id(), extents.data(), nullptr);
   const hsize_t stored = most_inflation * (H5Dget_storage_size(handle.id()) / sizeof(double));
   const hsize_t components = rank == 1 ? 1 : extents.front();
-  // Compared without a product, which could overflow.
+  // Compared by division, since a product could overflow.
   if (components == 0 || extents.back() == 0 || stored / components < extents.back()) {
     refuse(fmt::format("dataset {} stores at most {} numbers, less than its size says", dataset, stored));
   }

@@ -7,7 +7,7 @@
 
 namespace vehd::fem_check {
 
-/// A file or an option that cannot be used; the message names it.
+/// An unusable file or option; the message names it.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

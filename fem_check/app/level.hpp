@@ -8,19 +8,19 @@
 
 namespace vehd::fem_check {
 
-/// Fields by name: one column per point of the comparison on γ, or per sample point.
+/// Fields by name: one column per comparison point on γ, or per sample point.
 using FieldValues = std::map<std::string, Eigen::MatrixXd>;
 
-/// Name of the flow that follows from the shape.
+/// Name of the problem of the flow determined by the shape.
 constexpr const char* shape_flow_problem = "flow from the shape";
 
-/// Name of f_b of the shapes of several vesicles, without a flow.
+/// Name of the problem of f_b on several vesicles, without a flow.
 constexpr const char* bending_problem = "bending";
 
-/// Name of V_m that is advanced in time.
+/// Name of the problem of V_m advanced in time.
 constexpr const char* charging_problem = "charging";
 
-/// One discrete solution: its fields at the points of the comparison, and what it took.
+/// One discrete solution: its fields at the points of the comparison, and its cost.
 struct Level {
   std::string problem;  ///< "potential", "flow" or one of the names above
   int degree = 0;
@@ -33,29 +33,29 @@ struct Level {
   FieldValues samples;
 };
 
-/// Settings of a solve besides the elements.
+/// Settings of a solution other than the elements.
 struct SolveSettings {
   double tolerance;  ///< of the linear solvers
   int exterior_degree = usual_exterior_degree;
-  bool from_zero = false;  ///< the linear solvers do not begin from the level before
+  bool from_zero = false;  ///< the linear solvers do not start from the previous level
 };
 
-/// Of the linear solvers, at least, for a flow that is a small part of another one.
+/// Smallest tolerance of the linear solvers for a flow that is a small correction of another one.
 constexpr double tolerance_of_changes = 1e-4;
 
 /// Tolerance of LevelSequence::rough over that of the levels.
 constexpr double rough_factor = 100.0;
-/// Exterior degree of LevelSequence::truncated: two below that of the levels, as shapes with a centre of symmetry make
-/// every other harmonic alone.
+/// Exterior degree of LevelSequence::truncated: two below that of the levels, since shapes with a centre of symmetry
+/// have only every second harmonic.
 constexpr int truncated_exterior_degree = usual_exterior_degree - 2;
 
-/// All levels of one problem on one mesh, coarse to fine, and one of them twice again: with fewer harmonics exact at
-/// the outer sphere, and with linear solvers that stop sooner.
+/// All levels of one problem on one mesh, coarse to fine, and two repetitions of one of them: with fewer exact
+/// harmonics at the outer sphere, and with a looser tolerance of the linear solvers.
 struct LevelSequence {
   std::vector<Level> levels;
-  int repeated = 0;  ///< which of them
-  Level truncated;   ///< its repetition with truncated_exterior_degree
-  Level rough;       ///< its repetition with a tolerance larger by rough_factor
+  int repeated = 0;  ///< index of the repeated level
+  Level truncated;   ///< repetition with truncated_exterior_degree
+  Level rough;       ///< repetition with a tolerance larger by rough_factor
 };
 
 }  // namespace vehd::fem_check

@@ -47,7 +47,7 @@ LevelSequence run_levels(const LevelPlan& plan, Meshes& meshes, const Report& re
     return solve_level(problem, meshes.discretise(degree), meshes.outer_radius(), report,
                        [&](const Discretisation& discretisation) { return solve(discretisation, settings); });
   };
-  // An observed order takes three levels.
+  // Three levels are needed for an observed order.
   constexpr std::size_t fewest = 3;
   LevelSequence result;
   auto& levels = result.levels;

@@ -9,7 +9,7 @@
 namespace vehd::fem_check {
 namespace {
 
-/// Layers of cells for each cell along an edge of a block, in the shell for the default outer radius.
+/// Layers of cells per cell along an edge of a block; in the shell, for the default outer radius.
 constexpr double blend_layers = 1.0 / 3.0, shell_layers = 4.0 / 3.0;
 
 meshes::BlockMeshOptions mesh_options(const LevelTask& task, double radius) {

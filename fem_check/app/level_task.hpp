@@ -9,11 +9,11 @@
 
 namespace vehd::fem_check {
 
-/// One level of a problem of vehd bench methods.
+/// One level of a problem of `vehd bench methods`.
 struct LevelTask {
   std::filesystem::path input;
   int degree = 4;
-  int cells_per_edge = 3;     ///< layers of cells in proportion
+  int cells_per_edge = 3;     ///< the layers of cells are in proportion
   double outer_radius = 8.0;  ///< over the radius of the shape
 };
 
@@ -22,7 +22,7 @@ struct LevelCost {
   int degree = 0, n_cells = 0;
   long n_unknowns = 0;
   double outer_radius = 0.0;
-  double seconds = 0.0;  ///< of the processor, from the shape to the fields on γ: mesh, matrices, solve
+  double seconds = 0.0;  ///< processor time from the shape to the fields on γ: mesh, matrices, solution
   double seconds_mesh = 0.0;
   std::size_t peak_memory_bytes = 0;  ///< of the process
 };
@@ -32,14 +32,14 @@ struct FieldError {
   double l2 = 0.0, max = 0.0;
 };
 
-/// Mesh and elements of a level, with the processor time since they were begun.
+/// Mesh and elements of a level, with the processor time since the start of their construction.
 class LevelSpace {
  public:
   /// @throws meshes::MeshError
   LevelSpace(const meshes::FrozenShape& shape, const LevelTask& task);
 
   [[nodiscard]] const Discretisation& discretisation() const { return discretisation_; }
-  /// All but the unknowns and the memory, which the solutions know. Seconds end here.
+  /// Cost up to now, except unknowns and memory, which the solutions provide.
   [[nodiscard]] LevelCost cost_so_far() const;
 
  private:
@@ -51,7 +51,7 @@ class LevelSpace {
   [[nodiscard]] Discretisation discretise(const meshes::FrozenShape& shape, const LevelTask& task);
 };
 
-/// Both for programs.
+/// JSON objects of both.
 nlohmann::json json_of(const LevelCost& cost);
 nlohmann::json json_of(const FieldError& error);
 

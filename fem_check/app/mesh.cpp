@@ -18,10 +18,10 @@ namespace {
 constexpr double outer_radius = 8.0;  ///< over the radius of the shape
 constexpr double refinement_step = 1.5;
 
-/// A number of cells when each is divided by `factor`.
+/// Number of cells after dividing each by `factor`.
 int refined(int cells, double factor) { return std::max(cells, static_cast<int>(std::lround(cells * factor))); }
 
-/// With the quality of what the file holds, which is not the exact map of hexahedra.
+/// Writes a mesh; checks the quality of the mesh in the file, which differs from the exact map of hexahedra.
 MeshResult written(const MeshTask& task, const std::vector<meshes::FrozenShape>& shapes, const meshes::VolumeMesh& mesh,
                    double smallest_scaled_jacobian) {
   MeshResult result;
@@ -39,7 +39,7 @@ MeshResult written(const MeshTask& task, const std::vector<meshes::FrozenShape>&
   return result;
 }
 
-/// Layers of a mesh for other programs, whose geometry is quadratic.
+/// Layers of a mesh for other programs, in which the geometry is quadratic.
 void refine(meshes::BoxMeshOptions& options, double factor) {
   const meshes::BlockMeshOptions of_one;
   options.cells_per_edge = refined(of_one.cells_per_edge, factor);

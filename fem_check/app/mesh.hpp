@@ -9,18 +9,18 @@
 
 namespace vehd::fem_check {
 
-/// Which mesh is made, and where it goes.
+/// Mesh to make, and its file.
 struct MeshTask {
   std::filesystem::path input;   ///< file with the shapes, one or two
   std::filesystem::path output;  ///< MSH 4.1
   std::string family = "hex";    ///< or "tet"
-  int refine = 0;                ///< how often the element size is divided by 1.5
+  int refine = 0;                ///< number of times that the element size is divided by 1.5
 };
 
-/// Figures of the mesh.
+/// Properties of the mesh.
 struct MeshResult {
   std::string family;
-  int n_cells = 0, n_faces = 0;  ///< faces: on the membrane
+  int n_cells = 0, n_faces = 0;  ///< n_faces: on the membrane
   double outer_radius = 0.0;
   std::vector<double> shape_volumes, shape_areas;  ///< of each vesicle
   meshes::MeshQuality quality;
@@ -29,9 +29,9 @@ struct MeshResult {
 /// Meshes the shapes and writes the mesh. @throws InputError, meshes::MeshError
 MeshResult run_mesh(const MeshTask& task);
 
-/// The figures for people.
+/// The properties as text.
 std::string text_of(const MeshResult& result);
-/// The figures for programs.
+/// The properties as JSON.
 nlohmann::json json_of(const MeshResult& result);
 
 }  // namespace vehd::fem_check

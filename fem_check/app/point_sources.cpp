@@ -10,7 +10,7 @@
 namespace vehd::fem_check {
 namespace {
 
-/// φ and ∇φ of either side at points of γ.
+/// φ and ∇φ on both sides at points of γ.
 struct ExactTraces {
   Vector potential_in, potential_out;
   Vectors gradient_in, gradient_out;

@@ -8,8 +8,8 @@
 
 namespace vehd::fem_check {
 
-/// Harmonic potentials with an exact solution on any shape: sources inside γ make φ outside, sources outside γ make φ
-/// inside. They obey prescribed jumps of φ and of σ ∂φ/∂n.
+/// Harmonic potentials with an exact solution on any shape: sources inside γ generate φ outside, sources outside γ
+/// generate φ inside. They satisfy prescribed jumps of φ and of σ ∂φ/∂n.
 /// Source: paper, Example 1
 struct PointSources {
   Vectors position;
@@ -24,13 +24,13 @@ struct PointSourceResult {
   FieldError charge, force;
 };
 
-/// Solves for the jumps of the sources and compares q and f_E with the exact ones at the points of the mesh. At the
-/// outer sphere the condition is that of the check: of the exact solution it knows nothing.
-/// @param task  its input has shape, conductivities and sources
+/// Solves for the jumps of the sources and compares q and f_E with the exact ones at the points of the mesh. The
+/// condition at the outer sphere is that of the check and does not use the exact solution.
+/// @param task  with shape, conductivities and sources in its input
 /// @throws InputError, meshes::MeshError, SolveError
 PointSourceResult run_point_sources(const LevelTask& task);
 
-/// The result for programs.
+/// The result as JSON.
 nlohmann::json json_of(const PointSourceResult& result);
 
 }  // namespace vehd::fem_check

@@ -5,7 +5,7 @@
 
 namespace vehd::fem_check {
 
-/// Takes one line on what has been done.
+/// Receives one line about each completed step.
 using Report = std::function<void(const std::string& line)>;
 
 }  // namespace vehd::fem_check

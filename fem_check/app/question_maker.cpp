@@ -22,7 +22,7 @@ NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPlaces& plac
   NaturalSizes sizes;
   sizes.potential = physics.field.norm() * radius + potential;
   sizes.field = sizes.potential / radius;
-  // Free charge that relaxes may be anything.
+  // Relaxing free charge has no typical size of its own.
   sizes.charge = input.charged_faces() ? sizes.field : sizes.field * std::abs(inside - outside) / (inside + outside);
   sizes.electric_force = physics.permittivity_out * sizes.field * sizes.field;
   sizes.current = inside * outside / (inside + outside) * sizes.field + physics.conductance * potential +
@@ -42,8 +42,8 @@ int degree_of(const Eigen::MatrixXd& coefficients) {
 
 namespace {
 
-/// Over half of the lower degree at least, as the size of coefficients may rise from one degree to the next.
-/// @param finer  coefficients in the higher of both degrees
+/// Decay between the degrees, measured over at least half the lower degree, as coefficients need not decrease at once.
+/// @param finer  coefficients at the higher of both degrees
 std::optional<double> decay_of(const Eigen::MatrixXd& finer, const Degrees& degrees) {
   const Eigen::Index lower = std::min(degrees.judged, degrees.other), higher = std::max(degrees.judged, degrees.other);
   const Eigen::Index width = higher - lower, distance = std::max(width, lower / 2);

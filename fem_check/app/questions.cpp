@@ -6,7 +6,7 @@
 namespace vehd::fem_check {
 namespace {
 
-/// Which sample points every level has found.
+/// Whether each sample point was found on every level.
 std::vector<bool> found_by_all(const LevelSequence& sequence, const std::string& values, std::size_t n_samples) {
   std::vector<bool> found(n_samples, true);
   const auto look_at = [&](const Level& level) {
@@ -32,7 +32,7 @@ class Questions {
     return maker_.on_surface(name, label, name, input_.bie.*field, input_.bie.*field, input_.bie_high.*field, size);
   }
 
-  /// Three questions, inside, outside and near γ, about what is left without `background`, [components x samples].
+  /// Three questions (inside, outside and near γ) about a field minus `background`, [components x samples].
   void at_samples(const std::string& name, const std::string& symbol, Eigen::MatrixXd BieFields::*field, double size,
                   const Eigen::MatrixXd& background) {
     if ((input_.bie.*field).size() == 0) return;
@@ -90,7 +90,7 @@ std::vector<FieldQuestion> electric_questions(const CheckInput& input, const Com
     questions.list.push_back(questions.on_surface("q_steady", "q steady", &BieFields::steady_charge, sizes.charge));
   }
   questions.list.push_back(questions.on_surface("force", "f_E", &BieFields::force_electric, sizes.electric_force));
-  // Without what the field alone makes at the place of the shape: far from the origin it would hide all else.
+  // Without the potential of the field at the centre of the shape, which would dominate far from the origin.
   const double at_centre = -input.physics.field.dot(places.centre);
   questions.at_samples("potential", "phi", &BieFields::sample_potential, sizes.potential,
                        Eigen::MatrixXd::Constant(1, input.samples.points.cols(), at_centre));

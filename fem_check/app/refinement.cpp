@@ -26,7 +26,7 @@ Refinement Refinement::of_strongly_bent_bowl() {
   refinement.cells_per_edge = 4;
   refinement.blend_layers = 2;
   refinement.shell_layers = 4;
-  // So many cells have 1.2 million unknowns of the flow at degree 8.
+  // At degree 8 the flow has 1.2 million unknowns on this many cells.
   refinement.flow_degrees.pop_back();
   refinement.shape_flow_degrees.pop_back();
   return refinement;
@@ -39,7 +39,7 @@ Refinement Refinement::following(const meshes::FrozenShape& shape) {
 }
 
 void Refinement::resolve(int degree) {
-  // A quarter of the way round has degree/4 waves.
+  // A quarter of the circumference has degree/4 waves.
   constexpr double points_per_wave = 3.0;
   const double points = points_per_wave * degree / (4.0 * cells_per_edge);
   points_per_edge = std::max(points_per_edge, static_cast<int>(std::ceil(points)));
@@ -96,7 +96,7 @@ meshes::BoxMeshOptions two_vesicle_options(const Refinement& refinement,
   meshes::BoxMeshOptions options = box_mesh_options(refinement);
   const meshes::Point middle = 0.5 * (shapes[0].centroid() + shapes[1].centroid());
   const double reach = std::max(shapes[0].largest_distance(middle), shapes[1].largest_distance(middle));
-  // Two that are far from one another fill the sphere more than a single one does.
+  // Two vesicles far apart fill more of the sphere than a single one.
   const double size = std::max(std::hypot(shapes[0].radius(), shapes[1].radius()), 0.5 * reach);
   options.boxes.outer_radius = refinement.outer_radius_of_two * size;
   return options;
@@ -104,8 +104,8 @@ meshes::BoxMeshOptions two_vesicle_options(const Refinement& refinement,
 
 meshes::BoxMeshOptions wall_mesh_options(const Refinement& refinement, const meshes::FrozenShape& shape,
                                          const meshes::Wall& wall) {
-  constexpr double layer_factor = 2.5;  // of the thickness of all layers that brings one more
-  constexpr double room = 1.2;          // of the outer sphere about the box
+  constexpr double layer_factor = 2.5;  // ratio of the total thickness of the layers for one more layer
+  constexpr double room = 1.2;          // of the outer sphere around the box
   meshes::BoxMeshOptions options = box_mesh_options(refinement);
   options.outer_layers = 1;
   const double reach = shape.largest_distance(shape.centroid()), gap = meshes::gap_to(wall, shape);

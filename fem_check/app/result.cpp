@@ -29,10 +29,10 @@ nlohmann::json json_of(const FieldComparison& field) {
           {"counts", field.counts()}};
 }
 
-/// Fields of one level: the i-th level of a problem is entry i of those of its fields that every level has.
+/// Fields of one level; entry i of of_levels belongs to the i-th level of a problem if every level has the field.
 nlohmann::json level_fields(const CheckResult& result, const Level& level, std::size_t index, std::size_t n_levels) {
   nlohmann::json json = nlohmann::json::object();
-  // Both flows have a velocity, and V_m is advanced in time as well.
+  // Needed since both flows have a velocity and V_m also occurs in time.
   const bool of_shape = level.problem == shape_flow_problem || level.problem == bending_problem;
   const RowGroup group = of_shape                            ? RowGroup::from_shape
                          : level.problem == charging_problem ? RowGroup::in_time
@@ -85,7 +85,7 @@ std::vector<Row> rows_of(const CheckResult& result) {
   return rows;
 }
 
-/// With the error that leaves it open, and the marks that the legend explains.
+/// Verdict with the error that leaves it undecided, and the marks that the legend explains.
 std::string verdict_text(const FieldComparison& field, double required) {
   std::string text = name_of(field.verdict);
   if (field.verdict == Verdict::undecided) {
@@ -104,7 +104,7 @@ std::string text_of(const Row& row, std::size_t width, double required) {
                      field.bie_error(), verdict_text(field, required));
 }
 
-/// What the columns and marks mean, and what no row says.
+/// Legend: meaning of columns and marks, and remarks that belong to no row.
 std::string legend_of(const CheckResult& result, const std::vector<Row>& rows) {
   const auto any = [&](const auto& holds) {
     return std::ranges::any_of(rows, [&](const Row& row) { return holds(*row.field); });
@@ -130,7 +130,7 @@ std::string legend_of(const CheckResult& result, const std::vector<Row>& rows) {
   return text;
 }
 
-/// "verdict: agree, in all 24 rows".
+/// "verdict: the two methods agree", or the rows that disagree or are undecided.
 std::string verdict_line(const CheckResult& result, const std::vector<Row>& rows) {
   const Verdict verdict = result.verdict();
   if (verdict == Verdict::agree) return "verdict: the two methods agree\n";
@@ -140,7 +140,7 @@ std::string verdict_line(const CheckResult& result, const std::vector<Row>& rows
   return fmt::format("verdict: undecided {}\n", which);
 }
 
-/// Below the table.
+/// Lines below the table.
 std::string further_lines(const CheckResult& result) {
   std::string text;
   if (result.in_time) {
@@ -158,7 +158,7 @@ std::string further_lines(const CheckResult& result) {
   return text;
 }
 
-/// What boundary integrals were solved with.
+/// Degrees of the boundary integrals.
 std::string degrees_of(const CheckResult& result) {
   if (result.vesicles.empty()) {
     return fmt::format("degree {}, their error from degree {}", result.order, result.high_order);
@@ -207,7 +207,7 @@ std::string table_of(const CheckResult& result) {
 
 namespace {
 
-/// What goes with one vesicle.
+/// JSON of the result of one vesicle.
 nlohmann::json vesicle_json(const CheckResult& result) {
   nlohmann::json fields = nlohmann::json::object(), from_shape = fields, stored = fields, in_time = fields,
                  orders = fields;

@@ -9,27 +9,27 @@
 
 namespace vehd::fem_check {
 
-/// How far the membrane is from inextensible as the finite elements see it: ∇_γ·v over the rate ‖A‖ + |v|/radius.
+/// Deviation of the finite-element velocity from inextensibility: ∇_γ·v over the rate ‖A‖ + |v|/radius.
 struct SurfaceDivergence {
   Norms size;
   Norms levels_change;
 };
 
-/// How V_m came from an earlier snapshot.
+/// Advance of V_m from an earlier snapshot.
 struct InTimeResult {
   double begin;
   int steps;                    ///< between two discontinuities of the field
-  std::optional<double> order;  ///< observed, in the size of the steps
-  bool moves;                   ///< the shape does
+  std::optional<double> order;  ///< observed, in the step size
+  bool moves;                   ///< whether the shape moves
 };
 
-/// Share of a field that the error of either method may reach for both to agree, unless asked for another.
+/// Default of the largest error of either method, relative to the field, for which both agree.
 constexpr double default_requirement = 0.02;
 
-/// Result of a check. Of several vesicles each has a result of its own, and the whole has no rows itself.
+/// Result of a check. With several vesicles, each has its own result, and the overall result has no rows.
 struct CheckResult {
   std::string source;
-  std::string name;  ///< of the vesicle; empty where there is only one
+  std::string name;  ///< of the vesicle; empty if there is only one
   double time = 0.0;
   int order = 0, high_order = 0;
   double required = default_requirement;
@@ -42,16 +42,16 @@ struct CheckResult {
   double seconds = 0.0;
   std::vector<CheckResult> vesicles{};
 
-  /// Of all rows that count: the worst of them.
+  /// Worst verdict of all rows that count.
   [[nodiscard]] Verdict verdict() const;
-  /// Labels of the rows with this verdict that count, of several vesicles with their names.
+  /// Labels of the rows that count and have this verdict; with several vesicles, including their names.
   [[nodiscard]] std::vector<std::string> rows_with(Verdict verdict) const;
 };
 
-/// The table for the terminal.
+/// The table as text.
 std::string table_of(const CheckResult& result);
 
-/// docs/check.md lists the keys.
+/// The result as JSON; docs/check.md lists the keys.
 nlohmann::json json_of(const CheckResult& result);
 
 }  // namespace vehd::fem_check

@@ -20,7 +20,7 @@ Eigen::MatrixXd at_samples(const Discretisation& discretisation, const Vectors& 
       places.inside.push_back(place.inside.front());
       found.push_back(i);
     } catch (const LocationError&) {
-      // It counts as unknown.
+      // The value remains NaN.
     }
   }
   if (found.empty()) return {};

@@ -6,9 +6,9 @@
 
 namespace vehd::fem_check {
 
-/// Values at points of the volume, [components x points]; NaN at a point that is found in no cell, as one beyond the
-/// outer sphere or one in a fold of a thin shape, where the inverse of the map is not found.
-/// @param values  at points that were found
+/// Values at points of the volume, [components x points]; NaN if no cell is found for a point: beyond the outer sphere,
+/// or in a fold of a thin shape where the inversion of the map fails.
+/// @param values  evaluates at located points
 Eigen::MatrixXd at_samples(const Discretisation& discretisation, const Vectors& points,
                            const std::function<Eigen::MatrixXd(const VolumePoints&)>& values);
 

@@ -12,19 +12,19 @@
 namespace vehd::fem_check {
 namespace {
 
-/// Of the bending elements above that of the velocity: four derivatives of x would make f_b the largest error by far.
+/// Degree of the bending elements minus that of the velocity: four derivatives of x would make f_b the largest error.
 constexpr int bending_degrees = 6;
-/// Of f_b as a field above that of the velocity: it is rougher than all that follows from it.
+/// Degree of f_b as a field minus that of the velocity: f_b is rougher than all fields derived from it.
 constexpr int bending_field_degrees = 3;
 
-/// The forces of the shapes on elements of one degree.
+/// Bending forces of the shapes on elements of one degree.
 struct Bending {
   FieldValues fields{};     ///< bending, spontaneous_curvature
-  VectorOnSurface force{};  ///< of both together, as the flow takes it
+  VectorOnSurface force{};  ///< sum of both fields, in the trace space of the flow
   long n_unknowns = 0;
 };
 
-/// Each membrane with its own modulus and curvature.
+/// Bending with the modulus and spontaneous curvature of each membrane.
 Bending bending_of(const std::vector<CheckInput>& inputs, const Discretisation& space, int points_per_edge) {
   std::vector<BendingEnergy> flat, curved;
   for (const CheckInput& input : inputs) {
@@ -46,7 +46,7 @@ Bending bending_of(const std::vector<CheckInput>& inputs, const Discretisation& 
   return bending;
 }
 
-/// Flows with the force of the shape, with or without a tension, on discretisations of one mesh.
+/// Flows under the forces of the shape, with or without tension, on discretisations of one mesh.
 class ShapeFlow {
  public:
   ShapeFlow(const CheckInput& input, FlowSetups& setups, const Refinement& refinement)
@@ -81,7 +81,7 @@ class ShapeFlow {
     return solved;
   }
 
-  /// Of f_E alone, in a fluid at rest.
+  /// Flow due to f_E without a background flow.
   [[nodiscard]] Solved solve_electric(const Discretisation& space, const SolveSettings& settings,
                                       const VectorOnSurface& electric) {
     FlowProblem problem = problem_with(settings);
@@ -103,14 +103,14 @@ class ShapeFlow {
     return problem;
   }
 
-  /// Made once for each degree.
+  /// Operators, set up once for each degree.
   [[nodiscard]] const InextensibleOperators& tension_on(const Discretisation& space) {
     const auto found = tension_.find(space.degree());
     if (found != tension_.end()) return found->second;
     return tension_.emplace(space.degree(), InextensibleOperators(space, setups_.at(space))).first->second;
   }
 
-  /// Found once for each degree.
+  /// Bending forces, computed once for each degree.
   [[nodiscard]] const Bending& bending_on(const Discretisation& space) {
     const auto found = bending_.find(space.degree());
     if (found != bending_.end()) return found->second;
@@ -132,11 +132,11 @@ class ShapeFlow {
   const CheckInput& input_;
   const Physics& physics_;
   FlowSetups& setups_;
-  Vector3 centre_;  // the weight is taken about it, which changes the pressure inside alone
+  Vector3 centre_;  // reference point of the weight, which only changes the pressure inside
   int points_per_edge_;
   std::map<int, Bending> bending_;                // by degree
   std::map<int, InextensibleOperators> tension_;  // by degree
-  // What was found so far, of one kind.
+  // Previous solutions, of one kind only.
   std::vector<FlowSolution> flows_;
   std::vector<InextensibleFlow> inextensible_;
 };

@@ -19,7 +19,7 @@ ShapePath::Weights ShapePath::weights(double time) const {
   const auto at = [&](Eigen::Index i) { return times_[result.first + static_cast<std::size_t>(i)]; };
   result.value = Vector::Ones(n);
   result.derivative = Vector::Zero(n);
-  // Lagrange's polynomials, factor by factor.
+  // Lagrange polynomials, by multiplying their factors.
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
       if (j == i) continue;

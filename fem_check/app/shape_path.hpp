@@ -7,16 +7,16 @@
 
 namespace vehd::fem_check {
 
-/// A shape that moves: polynomials in time of degree 3 at most through the four snapshots that are nearest.
+/// A moving shape: polynomials in time of degree at most 3 through the four nearest snapshots.
 class ShapePath {
  public:
   explicit ShapePath(const InTime& in_time);
 
-  /// Coefficients of x.
+  /// Coefficients of x at a time.
   [[nodiscard]] Eigen::MatrixXd position(double time) const;
-  /// Of dx/dt at a direction (θ, φ), whose points slide along the membrane, less the velocity v of its material.
+  /// Coefficients of the relative velocity dx/dt − v of the points at fixed (θ, φ) and the membrane's material.
   [[nodiscard]] Eigen::MatrixXd sliding(double time) const;
-  /// Through every other snapshot and the last; of two snapshots, standing still at the last.
+  /// Path through every other snapshot and the last one; with two snapshots, constant at the last one.
   [[nodiscard]] ShapePath coarser() const;
 
  private:

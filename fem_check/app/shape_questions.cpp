@@ -10,7 +10,7 @@ std::vector<FieldQuestion> shape_questions(const CheckInput& input, const Compar
   const NaturalSizes sizes = natural_sizes(input, places);
   const QuestionMaker maker(places);
   std::vector<FieldQuestion> list;
-  // Of two vesicles one alone may bend, or have a spontaneous curvature.
+  // With two vesicles, only one of them may bend or have a spontaneous curvature.
   const auto has = [&](const char* name, Eigen::MatrixXd BieFields::*field) {
     return of_shape.surface.contains(name) && (input.bie.*field).size() > 0;
   };

@@ -12,10 +12,10 @@ namespace {
 
 constexpr Eigen::Index highest_degree = 4, n_harmonics = (highest_degree + 1) * (highest_degree + 1);
 
-/// Coefficients of each harmonic.
+/// One column for each harmonic.
 Eigen::MatrixXd each_harmonic() { return Eigen::MatrixXd::Identity(n_harmonics, n_harmonics); }
 
-/// L2(γ) projection on the harmonics, by values at points.
+/// L2(γ) projection onto the harmonics, from values at points.
 class SmoothPart {
  public:
   explicit SmoothPart(const SurfacePoints& points) {
@@ -27,7 +27,7 @@ class SmoothPart {
   [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXd& field) const {
     return with_moments(weighted_ * field.transpose());
   }
-  /// The field that has these.
+  /// Combination of the harmonics with given moments.
   /// @param moments  ∫ f_c Y_k dA in row k and column c
   [[nodiscard]] Eigen::MatrixXd with_moments(const Eigen::MatrixXd& moments) const {
     return mass_.solve(moments).transpose() * values_;
@@ -57,7 +57,7 @@ FieldQuestion work_of_tension(FieldQuestion question, const Eigen::MatrixXd& pos
   for (Eigen::MatrixXd& component : slopes) component = component * points.weight.asDiagonal();
   question.from_level = [smooth, slopes](const Eigen::MatrixXd& tension) {
     Eigen::MatrixXd moments(n_harmonics, 3);
-    // Of w = Y e_d the divergence is the component d of ∇_γ Y.
+    // The divergence of w = Y e_d is the component d of ∇_γ Y.
     for (int d = 0; d < 3; ++d) moments.col(d) = -slopes[d] * tension.transpose();
     return smooth->with_moments(moments);
   };

@@ -23,8 +23,8 @@ Eigen::MatrixXd current_through(const CheckInput& input, const SurfacePoints& po
   return current;
 }
 
-/// −(σ_i ∂φ_i/∂n + G_m V_m + J_p), the current that charges the membrane, from ∂φ_i/∂n of a level; C_m dV_m/dt of the
-/// run, or with displacement currents dq_i/dt. No snapshot has it.
+/// Current that charges the membrane: −(σ_i ∂φ_i/∂n + G_m V_m + J_p) from ∂φ_i/∂n of a level, against C_m dV_m/dt of
+/// the run or, with displacement currents, dq_i/dt. It is not stored in snapshots.
 FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces& places, const NaturalSizes& sizes,
                                 const QuestionMaker& maker) {
   const Physics& physics = input.physics;
@@ -33,7 +33,7 @@ FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces&
       maker.on_surface("charging_current", input.charged_faces() ? "dq_i/dt" : "C dV_m/dt", "flux_in", rate, rate,
                        physics.capacitance * input.bie_high.potential_rate, sizes.current);
   question.is_remainder = true;
-  // The run has G_m of pores as it follows from their state, the elements that of the file, which is truncated.
+  // The run uses G_m of the state of the pores, the elements the truncated G_m of the file.
   if (input.bie.rate_truncation.size() > 0) {
     question.further_error = physics.capacitance * SurfaceSeries(input.bie.rate_truncation)(places.surface);
   }
@@ -44,7 +44,7 @@ FieldQuestion charging_question(const CheckInput& input, const ComparisonPlaces&
   return question;
 }
 
-/// σ_i E_i − σ_e E_e, at which the free charge of both faces grows; no snapshot has it.
+/// σ_i E_i − σ_e E_e, the rate of change of the free charge of both faces; it is not stored in snapshots.
 FieldQuestion free_current_question(const CheckInput& input, const NaturalSizes& sizes, const QuestionMaker& maker) {
   const double capacitance = input.physics.capacitance;
   const Eigen::MatrixXd rate = capacitance * input.bie.free_charge_rate;
@@ -54,8 +54,8 @@ FieldQuestion free_current_question(const CheckInput& input, const NaturalSizes&
   return question;
 }
 
-/// ∇_γ·v of the stored velocity less what the constraint makes of it: what the boundary integrals leave at both orders
-/// is the error.
+/// ∇_γ·v of the stored velocity minus the value that the constraint prescribes; the residuals of the boundary integrals
+/// at both orders are the error.
 FieldQuestion divergence_question(const CheckInput& input, const ComparisonPlaces& places, double rate) {
   const SurfacePoints& points = places.surface;
   const auto left = [&](const Eigen::MatrixXd& velocity, double dilation) {
@@ -111,9 +111,9 @@ FieldQuestion in_time_question(const CheckInput& input, const ComparisonPlaces& 
                                                             in_time.bie_high, natural_sizes(input, places).potential);
   question.group = RowGroup::in_time;
   question.time_error = charging.time_error;
-  // Of degrees and steps together.
+  // The change is due to degrees and steps together.
   question.degrees = {};
-  // Steps of first order leave a third more than a quarter of their size changes: twice the change is counted.
+  // For steps of first order the error is 4/3 of the change by quartering them: twice the change is counted.
   question.further_error = (question.bie - question.bie_high).cwiseAbs();
   if (in_time.by_motion.size() > 0) {
     question.further_error += 2.0 * SurfaceSeries(in_time.by_motion)(places.surface).cwiseAbs();
@@ -123,8 +123,8 @@ FieldQuestion in_time_question(const CheckInput& input, const ComparisonPlaces& 
 
 namespace {
 
-/// Numbers of the snapshot that follow from the shape: by what boundary integrals find for it, and by the elements
-/// where these have them.
+/// Stored fields determined by the shape, with the boundary integrals as reference, and with the elements if these
+/// provide the field.
 class StoredOfShape {
  public:
   StoredOfShape(const CheckInput& input, const ComparisonPlaces& places, const Level* of_shape)
@@ -166,7 +166,7 @@ class StoredOfShape {
   [[nodiscard]] bool elements_have(const std::string& values) const {
     return of_shape_ != nullptr && of_shape_->surface.contains(values);
   }
-  /// By boundary integrals alone.
+  /// Question with the boundary integrals as the only reference.
   [[nodiscard]] FieldQuestion question(const std::string& name, const std::string& label, const Eigen::MatrixXd& judged,
                                        Eigen::MatrixXd BieFields::*field) const {
     FieldQuestion result = stored(QuestionMaker(places_).on_surface(name, label, "", judged, input_.bie.*field,
@@ -206,7 +206,7 @@ std::vector<FieldQuestion> stored_flow_questions(const CheckInput& input, const 
       without(stored(QuestionMaker(places).on_surface("velocity", "v", "velocity", input.stored.velocity,
                                                       input.bie.velocity, input.bie_high.velocity, sizes.velocity)),
               input.physics.flow_gradient * points.position);
-  // The run has v of its forces, the elements that of the forces in the file, which are truncated.
+  // The run uses v of its forces, the elements that of the truncated forces in the file.
   if (input.bie.velocity_truncation.size() > 0) {
     velocity.further_error = SurfaceSeries(input.bie.velocity_truncation)(points);
   }

@@ -8,14 +8,14 @@
 namespace vehd::fem_check {
 namespace {
 
-/// ∇_γ of every column of a series at each direction, [columns x 3]: visit(point, gradients).
+/// Calls visit(point, gradients) with ∇_γ of every column of a series, [columns x 3], at each direction.
 template <typename Visit>
 void for_each_gradient(const Eigen::MatrixXd& position, const Eigen::MatrixXd& fields, const Vectors& directions,
                        const Visit& visit) {
   const meshes::HarmonicSeries x(position), f(fields);
   for (Eigen::Index i = 0; i < directions.cols(); ++i) {
     const Vector3 direction = directions.col(i);
-    // Two tangents of the unit sphere are coordinates enough: the result depends on neither.
+    // Any two tangents of the unit sphere serve as coordinates; the result does not depend on them.
     Eigen::Matrix<double, 3, 2> tangents;
     tangents.col(0) = direction.unitOrthogonal();
     tangents.col(1) = direction.cross(tangents.col(0));

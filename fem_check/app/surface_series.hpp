@@ -12,14 +12,14 @@ namespace vehd::fem_check {
 class SurfaceSeries {
  public:
   explicit SurfaceSeries(const Eigen::MatrixXd& coefficients) : SurfaceSeries(std::vector{coefficients}) {}
-  /// @param of_vesicles  coefficients on the membrane of each
+  /// @param of_vesicles  coefficients on the membrane of each vesicle
   explicit SurfaceSeries(const std::vector<Eigen::MatrixXd>& of_vesicles) {
     for (const Eigen::MatrixXd& coefficients : of_vesicles) {
       series_.push_back(std::make_shared<const meshes::HarmonicSeries>(coefficients));
     }
   }
 
-  /// [components x points].
+  /// Values at points of γ, [components x points].
   [[nodiscard]] Eigen::MatrixXd operator()(const SurfacePoints& points) const {
     if (series_.size() == 1) return series_.front()->values(points.direction);
     Eigen::MatrixXd result(series_.front()->n_columns(), points.size());

@@ -7,7 +7,7 @@
 namespace vehd::fem_check {
 namespace {
 
-/// Values at the nodes to derivatives there, of the polynomial through them.
+/// Maps values at the nodes to derivatives there of the interpolating polynomial.
 Eigen::MatrixXd derivative_matrix(const Vector& nodes) {
   const Eigen::Index n = nodes.size();
   Vector scale = Vector::Ones(n);
@@ -52,7 +52,7 @@ Vector surface_transport(const SurfacePoints& rule, const Vectors& position, con
     for (Eigen::Index i = 0; i < per_face; ++i) {
       Eigen::Matrix<double, 3, 2> t;
       for (Eigen::Index d = 0; d < 3; ++d) t.row(d) = tangents[static_cast<std::size_t>(d)].row(i);
-      // The components of w along the tangents, in dual coordinates.
+      // Contravariant components of w.
       const Eigen::Vector2d along = (t.transpose() * t).inverse() * (t.transpose() * velocity.col(begin + i));
       result[begin + i] = along.dot(slope.row(i));
     }

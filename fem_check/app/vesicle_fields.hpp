@@ -6,10 +6,10 @@
 #include "fem_check/app/surface_series.hpp"
 #include "fem_check/per_vesicle.hpp"
 
-/// Fields and numbers of all vesicles of an input, as the solvers take them.
+/// Fields and parameters of all vesicles of an input, in the form that the solvers require.
 namespace vehd::fem_check {
 
-/// A field in coefficients.
+/// A field of all vesicles from its coefficients.
 template <typename Field>
 SurfaceSeries series_of(const std::vector<CheckInput>& inputs, const Field& field) {
   std::vector<Eigen::MatrixXd> of_vesicles;
@@ -17,7 +17,7 @@ SurfaceSeries series_of(const std::vector<CheckInput>& inputs, const Field& fiel
   return SurfaceSeries(of_vesicles);
 }
 
-/// A number of the physics.
+/// A physical parameter of all vesicles.
 inline PerVesicle<double> number_of(const std::vector<CheckInput>& inputs, double Physics::*number) {
   std::vector<double> of_vesicles;
   for (const CheckInput& input : inputs) of_vesicles.push_back(input.physics.*number);

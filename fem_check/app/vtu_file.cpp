@@ -41,7 +41,7 @@ std::vector<std::int64_t> connectivity_of(const Lattices& lattices, const CellKi
   return result;
 }
 
-/// XML of the file's head, and the numbers that follow it.
+/// XML header of the file, and the numbers that follow it.
 class Appended {
  public:
   template <typename Number>

@@ -16,15 +16,15 @@ struct NamedField {
 /// Shape of the cells of a file.
 enum class VtuCells { quadrilaterals, hexahedra };
 
-/// Lattices of (intervals + 1)^d points each, first coordinate fastest, as they come in a row.
+/// Lattices of (intervals + 1)^d points each, one after another, first coordinate fastest.
 struct Lattices {
   VtuCells cells;
   int intervals;
   Eigen::Matrix3Xd points;
 };
 
-/// Writes an unstructured grid for ParaView, numbers as raw appended data. deal.II's own writer keeps single precision,
-/// in which places and fields of two methods that agree to seven digits could not be told apart.
+/// Writes an unstructured grid for ParaView with numbers as raw appended data. deal.II's own writer uses single
+/// precision, which cannot distinguish two methods that agree to seven digits.
 /// @throws InputError if it cannot be written
 void write_vtu(const std::filesystem::path& file, const Lattices& lattices, const std::vector<NamedField>& fields);
 
