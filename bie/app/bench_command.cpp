@@ -46,7 +46,7 @@ class BenchPrinter : public BenchObserver {
   Progress progress_{Progress::suitable_style()};
 };
 
-/// What every bench has.
+/// Options of every bench.
 struct BenchOptions {
   std::string directory = "out/bench";
   bool no_plot = false;
@@ -98,16 +98,16 @@ void add_orders(CLI::App& command, SceneOptions& options, std::vector<int> order
       ->capture_default_str();
 }
 
-/// Adds `vehd bench NAME`; `measure` gives its result.
+/// Adds `vehd bench NAME`; `measure` returns its result.
 template <typename Measure>
 void add_bench(CLI::App& command, const std::shared_ptr<SceneOptions>& options, ExitCode& exit_code,
                const Measure& measure) {
   add_output_options(command, options->bench);
-  // That of threads takes several numbers of them.
+  // The bench of threads takes several numbers of threads.
   if (command.get_option_no_throw("--threads") == nullptr) add_threads_option(command);
   command.callback([options, &exit_code, measure] {
     BenchPrinter printer;
-    // Before anything is measured: a place that cannot be written is said at once.
+    // Before anything is measured, so that a directory that cannot be written is reported at once.
     make_directory(options->bench.directory);
     BenchResult result = measure(*options, printer);
     if (!options->scene.source.file.empty()) result.facts["scene"] = options->scene.text();
@@ -126,7 +126,7 @@ void add_space(CLI::App& bench, ExitCode& exit_code) {
   });
 }
 
-/// As a number of the scene, as which one without a unit counts.
+/// The time as a number of the scene; a text without a unit is one already.
 double positive_time(const char* option, const std::string& text, const Scene& scene) {
   const double time = number_of_time(text, scene.units, OutputUnit{});
   if (time > 0.0) return time;

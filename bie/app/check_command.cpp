@@ -40,7 +40,7 @@ void draw_if_possible(const std::filesystem::path& directory) {
   }
 }
 
-/// Called once for each of two degrees.
+/// Called once for each of the two degrees.
 void print_solved(const CheckFields& fields, bool first) {
   fmt::print(stderr, "{}degree {} in {:.1f} s{}", first ? "boundary integrals: " : ", ", fields.order, fields.seconds,
              first ? "" : "\n");

@@ -32,7 +32,7 @@ void send_messages_to_standard_error() {
   spdlog::set_default_logger(std::move(logger));
 }
 
-/// What is said is said by the first rank.
+/// Silences this rank: only the first rank prints.
 void fall_silent() {
   spdlog::set_level(spdlog::level::off);
   for (std::FILE* stream : {stdout, stderr}) {
@@ -78,7 +78,7 @@ ExitCode parse_and_run(CLI::App& program, int argc, char** argv, ExitCode& exit_
   } catch (const Interrupted& error) {
     return fail(ExitCode::stopped_early, error.what());
   } catch (const ConvergenceError& error) {
-    // No defect of the program: what it was given asks for more than its resolution can do.
+    // Not a defect of the program: the input requires a higher resolution than it has.
     return fail(ExitCode::wrong_input, fmt::format("vehd {}: the input cannot be computed: {}",
                                                    program.get_subcommands().front()->get_name(), error.what()));
   } catch (const std::exception& error) {
@@ -127,7 +127,7 @@ int run_program(int argc, char** argv, const Ranks& ranks) {
   add_completion_command(program, exit_code);
   add_help_command(program, exit_code);
   const ExitCode code = parse_and_run(program, argc, argv, exit_code);
-  // mpirun ends all ranks as soon as one returns anything else.
+  // mpirun ends all ranks as soon as one returns anything but 0.
   return ranks.is_first() ? static_cast<int>(code) : 0;
 }
 

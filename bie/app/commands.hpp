@@ -14,13 +14,13 @@
 namespace vehd {
 
 /// vehd run: simulates a scene.
-/// @param ranks  that do so together
+/// @param ranks  ranks that simulate it together
 void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code);
 /// vehd sweep: simulates a scene for many values of its keys.
 void add_sweep_command(CLI::App& program, ExitCode& exit_code);
-/// vehd fit: keys of a scene from measured data.
+/// vehd fit: fits keys of a scene to measured data.
 void add_fit_command(CLI::App& program, ExitCode& exit_code);
-/// vehd synthesise: data with noise from a scene.
+/// vehd synthesise: makes data with noise from a scene.
 void add_synthesise_command(CLI::App& program, ExitCode& exit_code);
 /// vehd plot: pictures of a run, or of a sweep.
 void add_plot_command(CLI::App& program, ExitCode& exit_code);
@@ -38,22 +38,22 @@ void add_check_command(CLI::App& program, ExitCode& exit_code);
 void add_bench_command(CLI::App& program, ExitCode& exit_code);
 /// vehd examples: the scenes that come with the program.
 void add_examples_command(CLI::App& program, ExitCode& exit_code);
-/// vehd help: reference of the scene keys; comes last, as it knows the help of every command before it.
+/// vehd help: reference of the scene keys; added last, as it includes the help of every command added before.
 void add_help_command(CLI::App& program, ExitCode& exit_code);
 /// `vehd completion SHELL`: a script that completes commands and options, made from the same table as the help.
 void add_completion_command(CLI::App& program, ExitCode& exit_code);
 
-/// Options that every command has.
+/// Options of every command.
 struct CommonOptions {
   std::optional<ResultFile> json;
 };
 /// Adds --json.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
-/// Writes the machine-readable result if it was asked for.
+/// Writes the machine-readable result if it was requested.
 void write_json(const CommonOptions& options, const nlohmann::json& result);
 
-/// Shows where a run is, and how long the rest of it may take.
+/// Shows the progress of a run and the estimated time for the rest of it.
 void show_run(Progress& progress, const RunStatus& status);
 
 }  // namespace vehd

@@ -11,15 +11,15 @@
 namespace vehd {
 namespace {
 
-/// A word that may stand at some place of a command line, and what it means.
+/// A word that can be completed on a command line, and its description.
 struct Word {
   std::string text;
   std::string meaning;
 };
 
-/// A command and what may follow it, from the tables that its help is printed from.
+/// A command and the words that may follow it, from the tables of its help.
 struct Completion {
-  std::string command;  ///< all its words, "bench time"; empty: the program
+  std::string command;  ///< full name, "bench time"; empty: the program
   std::vector<Word> options;
   std::vector<Word> words;
 };
@@ -112,7 +112,7 @@ complete -o default -F _vehd vehd
                      cases);
 }
 
-/// A description as an array of zsh holds it: "word:meaning" in single quotes.
+/// A word with its description as an element of a zsh array: "word:meaning" in single quotes.
 std::string zsh_entry(const Word& word) {
   std::string meaning = word.meaning.substr(0, word.meaning.find('\n'));
   std::string quoted;

@@ -42,7 +42,7 @@ void list(const ExamplesOptions& options) {
   write_json(options.common, {{"examples", result}});
 }
 
-/// Whatever somebody has made of it stays.
+/// Refuses to overwrite a file that differs from the example.
 void require_free(const fs::path& file, const ShippedScene& scene) {
   if (!fs::exists(file) || text_of_file(file) == scene.text) return;
   throw InputError(

@@ -56,7 +56,7 @@ void draw_if_possible(const FitFile& fit, const FitResult& result, const FitPath
 }
 
 ExitCode fit(const FitOptions& options) {
-  // One thread until the workers are there: copies of this process are made, which have no other thread.
+  // One thread until the workers are started: they are copies of this process, without its other threads.
   const ThreadCount one(1);
   const FitFile file = read_fit(options.file);
   const FitPaths paths = options.paths();

@@ -74,7 +74,7 @@ void add_groups_topic(CLI::App& help, ExitCode& exit_code) {
 }
 
 /// `help NAME ...` for every command below `owner`: what the command prints with --help.
-/// @param call  of the owner
+/// @param call  command line of the owner
 void add_command_topics(CLI::App& help, const CLI::App& owner, const std::string& call, ExitCode& exit_code) {
   for (const CLI::App* command : owner.get_subcommands([](const CLI::App*) { return true; })) {
     // A group of options is a command without a name.

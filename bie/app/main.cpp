@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     setenv("OMP_WAIT_POLICY", "passive", 1);
     execv("/proc/self/exe", argv);
   }
-  // A write beyond the limit of file sizes (ulimit -f) then fails as on a full disk, and the run stops in order.
+  // A write beyond the limit of file sizes (ulimit -f) then fails as on a full disk, and the run stops normally.
   std::signal(SIGXFSZ, SIG_IGN);
 #ifdef VEHD_MPI
   return vehd::run_program(argc, argv, vehd::mpi_ranks());

@@ -122,7 +122,7 @@ void print(const RunPlan& plan) {
              static_cast<double>(plan.memory_bytes) / 1e6);
 }
 
-/// A plan of steps that cannot be taken is none.
+/// Reports a scene whose steps cannot be taken.
 ExitCode does_not_hold(const PlanOptions& options, const std::string& what) {
   fmt::print(stderr, "{}: cannot be stepped{}\n", options.scene.source.file.string(), what);
   return ExitCode::does_not_hold;

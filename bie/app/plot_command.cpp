@@ -35,7 +35,7 @@ PlotTask task_of(const PlotOptions& options) {
   return task;
 }
 
-/// The shapes alone, as a file of that name.
+/// Draws the shapes only, into a file of this name.
 PlotResult plot_file(const PlotOptions& options, const PlotTask& task, PictureFormat format) {
   if (!options.format.empty() && task.format != format) {
     throw InputError(fmt::format("--format {}: -o {} is of another", options.format, options.output));
@@ -45,7 +45,7 @@ PlotResult plot_file(const PlotOptions& options, const PlotTask& task, PictureFo
   return plot_shapes(task, {task.output, format});
 }
 
-/// The table of a sweep.
+/// Draws the table of a sweep.
 ExitCode plot_table(const PlotOptions& options, const PlotTask& task) {
   const auto pictures =
       plot_sweep({{options.directory}, options.columns, options.border, options.curves, task.output, task.format});

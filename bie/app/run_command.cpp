@@ -31,7 +31,7 @@ std::filesystem::path directory_of(const RunOptions& options) {
                                    : std::filesystem::path(options.directory);
 }
 
-/// What to do about a run that has stopped.
+/// Advice for a run that has stopped.
 std::string next_step(const RunOptions& options, const Scene& scene, const RunOutcome& outcome) {
   const std::string command =
       fmt::format("vehd run {} -o {} --resume", options.scene.text(), shell_word(directory_of(options).string()));
@@ -78,7 +78,7 @@ void plot_if_possible(const RunPaths& paths) {
 }
 
 ExitCode run(const RunOptions& options, const Ranks& ranks) {
-  // Before anything runs in parallel: threads inherit which signals they leave alone.
+  // Before anything runs in parallel, as threads inherit the signals that they block.
   std::optional<Interruption> interruption(std::in_place);
   const std::filesystem::path directory = directory_of(options);
   SceneSource source = options.scene.source;
@@ -106,7 +106,7 @@ ExitCode run(const RunOptions& options, const Ranks& ranks) {
   try {
     summary = session.summarise(outcome);
   } catch (const std::runtime_error& error) {
-    // With a full disk, or the directory gone, there is no summary either; what matters is why the run has stopped.
+    // On a full disk or without the directory there is no summary either; the reason of the stop is more important.
     if (outcome.completed) throw;
     fmt::print(stderr, "{}\n{}\n", outcome.reason, error.what());
     return ExitCode::stopped_early;

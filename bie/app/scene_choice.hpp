@@ -7,23 +7,23 @@
 
 #include "bie/scene/settings.hpp"
 
-/// Options that several commands have.
+/// Options that several commands share.
 namespace vehd {
 
-/// A text as one word of a shell.
+/// A text quoted as one word of a shell.
 std::string shell_word(const std::string& word);
 
-/// A scene as a command line gives it.
+/// A scene given on a command line.
 struct SceneChoice {
   SceneSource source;
 
-  /// The part of a command line, for a shell.
+  /// The corresponding part of a command line, quoted for a shell.
   [[nodiscard]] std::string text() const;
 };
 
 /// Adds SCENE and --set.
 void add_scene_choice(CLI::App& command, SceneChoice& scene);
-/// --set alone.
+/// Adds --set only.
 void add_settings(CLI::App& command, SceneChoice& scene);
 
 /// Adds FILE, whose fields or shape are examined: a scene, a run.h5, or the directory of a run in place of its run.h5.
@@ -34,24 +34,24 @@ struct WorkerOptions {
   int n_jobs = 0;  ///< 0: not given
   int n_threads = 1;
 
-  /// As many as there are processors for, if not given.
+  /// Number of processes; as many as there are processors for, if not given.
   [[nodiscard]] int jobs() const;
 };
 /// Adds --jobs, and --threads of each worker.
 void add_workers(CLI::App& command, WorkerOptions& workers);
 
-/// Adds --threads, which acts at once.
+/// Adds --threads, which takes effect at once.
 void add_threads_option(CLI::App& command);
 
 /// Accepts a time: a number, or one with a unit of time.
 CLI::Validator time_text();
-/// Adds --time, that of a snapshot of a run.
+/// Adds --time, the time of a snapshot of a run.
 void add_snapshot_time(CLI::App& command, std::optional<std::string>& time);
 
 /// Default directory for the results of a scene: out/NAME of NAME.toml.
 std::filesystem::path default_directory(const std::filesystem::path& scene_file);
 
-/// Accepts these words only. An error names the nearest one; help and completion list all.
+/// Accepts only these words. An error names the nearest one; help and completion list all.
 CLI::Validator one_of(std::vector<std::string> words);
 
 }  // namespace vehd

@@ -11,7 +11,7 @@
 namespace vehd {
 namespace {
 
-/// A name that can stand between quotes in a line #SBATCH, where % begins a pattern. @throws InputError
+/// A name that is allowed in quotes in a line #SBATCH, where % begins a pattern. @throws InputError
 const std::string& sbatch_text(const std::string& name) {
   const bool is_refused = std::ranges::any_of(name, [](unsigned char letter) {
     return letter < 0x20 || letter == 0x7f || letter == '\'' || letter == '"' || letter == '\\' || letter == '%';
@@ -24,11 +24,11 @@ const std::string& sbatch_text(const std::string& name) {
   return name;
 }
 
-/// Lines #SBATCH that not every script has.
+/// Optional lines #SBATCH.
 std::string optional_lines(const SlurmTask& task) {
   std::string lines;
   if (task.memory_bytes > 0) {
-    // Of the workers and of whoever starts them, and half as much again.
+    // Memory of the workers and of the process that starts them, plus one half.
     const double bytes = 1.5 * static_cast<double>(task.memory_bytes) * (task.n_jobs + 1);
     lines += fmt::format("#SBATCH --mem={:.0f}M\n", std::ceil(bytes / (1 << 20)));
   }
@@ -38,7 +38,7 @@ std::string optional_lines(const SlurmTask& task) {
   return lines;
 }
 
-/// How all turns are submitted.
+/// Shell command that submits all turns.
 std::string submission(const SlurmTask& task) {
   const std::string script = shell_word(task.directory) + "/sweep.sbatch";
   if (task.n_turns == 1) return "sbatch " + script;

@@ -36,7 +36,7 @@ struct SweepOptions {
   [[nodiscard]] SweepPaths paths() const { return {directory.empty() ? default_directory(file) : fs::path(directory)}; }
 };
 
-/// A sweep and its runs, all that can be said before one begins.
+/// A sweep and its runs, read and checked before any run begins.
 struct PreparedSweep {
   SweepFile sweep;
   std::vector<SweepRun> runs;
@@ -45,7 +45,7 @@ struct PreparedSweep {
 
 PreparedSweep prepared(const SweepOptions& options) {
   SweepFile sweep = read_sweep(options.file);
-  // Columns that there are not are said now.
+  // Reports unknown columns before anything is computed.
   static_cast<void>(columns_of(sweep));
   const SweepPaths paths = options.paths();
   if (fs::exists(RunPaths{paths.directory}.history())) {
@@ -56,7 +56,7 @@ PreparedSweep prepared(const SweepOptions& options) {
   return {std::move(sweep), std::move(runs), paths};
 }
 
-/// In which a worker looks at the runs: those of its pack first.
+/// Order in which a worker tries the runs: those of its pack first.
 std::vector<std::size_t> order_of_runs(const SweepOptions& options, const PreparedSweep& sweep) {
   std::vector<std::size_t> order(sweep.runs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -135,7 +135,7 @@ ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
 }
 
 ExitCode sweep(const SweepOptions& options) {
-  // One thread until the workers are there: copies of this process are made, which have no other thread.
+  // One thread until the workers are started: they are copies of this process, without its other threads.
   const ThreadCount one(1);
   const PreparedSweep sweep = prepared(options);
   if (!options.emit.empty()) return emit_slurm(options, sweep);

@@ -23,7 +23,7 @@ struct SynthesiseOptions {
   CommonOptions common;
 };
 
-/// "table.key=1 kHz,10 kHz"
+/// Reads the key and its values from "table.key=1 kHz,10 kHz".
 void read_varied(Synthesis& synthesis, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (text.empty()) return;

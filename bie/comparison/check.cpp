@@ -19,15 +19,15 @@
 namespace vehd {
 namespace {
 
-/// Beyond it the quick check would not be quick; an order above it is kept.
+/// Highest degree of the quick estimate, unless two above the degree of the state is higher.
 constexpr int highest_quick_order = 28;
-/// Up to it the degree is doubled for the estimate: of few degrees each is cheap.
+/// The estimate doubles degrees up to this one, as low degrees cost little.
 constexpr int highest_doubled_order = 24;
-/// Of strongly bent shapes a change by fewer degrees says too little: operators beyond highest_order are solved with
-/// for the estimate alone.
+/// For strongly bent shapes a change by fewer degrees underestimates the error. Only this estimate solves with
+/// operators beyond highest_order.
 constexpr int least_further_degrees = 16;
 
-/// Keeps the sample points whose values both orders know.
+/// Keeps the sample points at which both orders have values.
 void keep_known(CheckSamples& samples, CheckFields& a, CheckFields& b) {
   std::vector<Index> known;
   for (Index i = 0; i < samples.points.rows(); ++i) {
@@ -52,23 +52,23 @@ void keep_known(CheckSamples& samples, CheckFields& a, CheckFields& b) {
 }  // namespace
 
 int estimate_order(int order, bool quick) {
-  // Boundary integrals are cheap beside fine elements; their error must not be what the comparison ends on.
+  // Boundary integrals cost little beside fine elements; their error must not limit the comparison.
   const int raised = std::max(quick ? std::min((3 * order + 1) / 2, highest_quick_order) : 2 * order, order + 2);
   return std::min(raised, std::max(2 * highest_doubled_order, order + least_further_degrees));
 }
 
 namespace {
 
-/// Each rank that has no processor of its own slows all others down, as they wait for it at every step of a solve.
-/// @param begin  of the boundary integrals, whose time shows what other programs leave
+/// Each rank without a processor of its own slows all others down, as they wait for it at every step of a solve.
+/// @param begin  start of the boundary integrals, during which the load by other programs is measured
 int n_ranks(const CheckTask& task, const ProcessorTimes& begin) {
-  // The coarse mesh has a few hundred cells: more processes would have too few each.
+  // The coarse mesh has a few hundred cells: with more processes each would have too few.
   constexpr int most = 8;
   const int usable = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most);
   return task.n_ranks ? *task.n_ranks : processors_left(begin, processor_times(), usable);
 }
 
-/// Lets the finite elements solve what the file has, and compare.
+/// Runs the finite-element program, which solves the problem in the file and compares.
 FemProgram::Result run_elements(const FemProgram& fem, const CheckTask& task, const std::filesystem::path& input,
                                 int ranks) {
   std::vector<std::string> arguments{"check", input.string(), "-o", task.directory.string()};
@@ -77,7 +77,7 @@ FemProgram::Result run_elements(const FemProgram& fem, const CheckTask& task, co
   return fem.run(arguments, ranks);
 }
 
-/// Solves by boundary integrals and writes the file for the elements.
+/// Solves by boundary integrals and writes the file for the finite elements.
 void solve_by_integrals(const CheckTask& task, const std::filesystem::path& input) {
   const FrozenState& frozen = task.frozen;
   CheckProblem problem = check_problem(frozen);

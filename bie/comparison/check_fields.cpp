@@ -28,7 +28,7 @@ namespace vehd {
 
 namespace {
 
-/// Local forces on a membrane, which needs no layers.
+/// Local forces on a membrane, for which no layers are assembled.
 /// @param position  coefficients of x in its degree, [n_coefficients x 3]
 LocalForces forces_on(const FrozenState& frozen, const Membrane& membrane, const Matrix& position,
                       std::size_t vesicle) {
@@ -58,7 +58,7 @@ LocalForces local_forces(const FrozenState& frozen, int order, std::size_t vesic
 
 namespace {
 
-/// Each membrane in a degree of its own.
+/// Resizes each membrane to its own degree.
 State resized_to(State state, const std::vector<int>& orders) {
   for (std::size_t a = 0; a < orders.size(); ++a) {
     state.vesicles[a] = resized(std::move(state.vesicles[a]), orders[a]);
@@ -78,7 +78,7 @@ Discretisation discretisation_of(const FrozenState& frozen, const std::vector<in
   return {settings, frozen.symmetry, levels};
 }
 
-/// The frozen problem of all membranes in given degrees.
+/// The frozen problem of all membranes at given degrees.
 class FrozenSolver {
  public:
   FrozenSolver(const CheckProblem& problem, const std::vector<int>& orders)
@@ -157,7 +157,7 @@ class FrozenSolver {
   [[nodiscard]] const Membrane& membrane(std::size_t a) const { return *solved_.vesicles[a].membrane; }
   [[nodiscard]] const VesicleFields& fields(std::size_t a) const { return solved_.fields.vesicles[a]; }
   [[nodiscard]] double electric_tolerance() const { return discretisation_.settings().electric_tolerance; }
-  /// Is a vesicle solved for in the degree of the state?
+  /// Whether a vesicle is solved at the degree of the state.
   [[nodiscard]] bool is_of_state(std::size_t a) const {
     return state_.vesicles[a].position.rows() == frozen_.state.vesicles[a].position.rows();
   }
@@ -179,8 +179,8 @@ class FrozenSolver {
     return -fine.analyze(lost.cwiseProduct(potential)) / model(a).charging.capacitance;
   }
 
-  /// In the degree of the state as the run has them, beside another one in twice that of the state at least: f_b has
-  /// four derivatives of x, and what a few degrees more change of it says little.
+  /// At the degree of the state, local forces as in the run; otherwise at twice the degree of the state or higher, as
+  /// f_b has four derivatives of x and its change by a few degrees underestimates the error.
   [[nodiscard]] LocalForces local_forces_beside(std::size_t a) const {
     const Matrix& position = state_.vesicles[a].position;
     if (is_of_state(a)) return forces_on(frozen_, membrane(a), position, a);
@@ -206,7 +206,7 @@ class FrozenSolver {
     result.tension_is_free = uniform_tension_is_free(parameters, membrane(a));
   }
 
-  /// @param potentials  V_m of each
+  /// @param potentials  V_m of each vesicle
   [[nodiscard]] std::vector<SecondKindSolution> charge_densities(const std::vector<Vector>& potentials) const {
     std::vector<SecondKindSolution> densities =
         solve_second_kind(in_field_, *solved_.interaction, weighted_fluxes(in_field_, *solved_.interaction, potentials),
@@ -219,7 +219,7 @@ class FrozenSolver {
     return membrane.weighted(membrane.fine.synthesize(coefficients));
   }
 
-  /// Of the background flow and forces, coefficients; those of images follow from their originals.
+  /// Velocities due to the background flow and forces, coefficients; those of images follow from their originals.
   [[nodiscard]] std::vector<Matrix> velocities_of(MembraneFlow& flow, const std::vector<Matrix>& forces) const {
     std::vector<Matrix> densities, background;
     for (std::size_t a = 0; a < results.size(); ++a) {

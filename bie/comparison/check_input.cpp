@@ -14,7 +14,7 @@
 namespace vehd {
 namespace {
 
-/// Where one vesicle is written: at the top of the file if it is the only one, else in a group of its own.
+/// Writes one vesicle: at the top of the file if it is the only one, otherwise in a group of its own.
 class VesicleWriter {
  public:
   VesicleWriter(Hdf5Writer& file, std::string group) : file_(file), group_(std::move(group)) {}
@@ -52,7 +52,7 @@ std::vector<VesicleWriter> writers_of(Hdf5Writer& file, std::size_t n_vesicles) 
   return writers;
 }
 
-/// The column-major memory of [n x components] is the file's row-major [components, n].
+/// Column-major memory [n x components] is row-major [components, n] in the file.
 void write(VesicleWriter& file, const std::string& path, const Matrix& values, const DatasetLabel& label) {
   if (values.size() == 0) return;
   std::vector<hsize_t> extents{static_cast<hsize_t>(values.rows())};
@@ -77,7 +77,7 @@ void write_wall(Hdf5Writer& file, const std::optional<Wall>& wall) {
   file.attribute("/wall", "electrode", std::int64_t{wall->field == WallField::electrode});
 }
 
-/// What vesicles have beside bending and tension, as the finite elements take it.
+/// Effects on vesicles besides bending and tension, in the form used by the finite elements.
 struct FurtherForces {
   double spontaneous_curvature = 0.0;
   Vector3 weight = Vector3::Zero();
@@ -140,7 +140,7 @@ void write_given(VesicleWriter& file, const CheckProblem& problem, std::size_t a
   }
 }
 
-/// The numbers of the snapshot that are judged.
+/// The fields of the snapshot that are checked.
 void write_stored(VesicleWriter& file, const CheckProblem& problem, std::size_t a) {
   file.group("/stored");
   const VesicleFields& fields = problem.frozen.fields.vesicles[a];
@@ -192,7 +192,7 @@ void write_fields(VesicleWriter& file, const std::string& group, const CheckFiel
   field("sample_velocity", fields.sample_velocity, {"velocity", "v at /samples/points, force given"});
 }
 
-/// @param inside  side of each, empty where nothing was solved there
+/// @param inside  side of each point; empty if nothing was solved there
 void write_samples(VesicleWriter& file, const CheckSamples& samples, const std::vector<bool>& inside) {
   if (inside.empty()) return;
   file.group("/samples");

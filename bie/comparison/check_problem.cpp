@@ -25,7 +25,7 @@ constexpr std::array offsets_in_spacings{-1.0, -0.5, -0.1, 0.1, 0.5, 1.0};
 constexpr std::array shares_towards_centre{0.25, 0.6};
 constexpr std::array offsets_in_radii{0.7, 1.5, 3.0};
 
-/// Evenly spread over the nodes of the grid: no two on one meridian.
+/// Evenly spread nodes of the grid, no two of them on one meridian.
 Index spread(int i, Index n) { return static_cast<Index>((i + 0.5) * static_cast<double>(n) / directions); }
 
 }  // namespace
@@ -79,7 +79,7 @@ Matrix where_possible(const Matrix& points, Index components, std::vector<bool>&
       try {
         take(i, 1);
       } catch (const ConvergenceError&) {
-        // It stays unknown: another part of the membrane is as near, or the degree is too low for the shape.
+        // It stays NaN: another part of the membrane is as near, or the degree is too low for the shape.
       }
     }
   }
@@ -106,7 +106,7 @@ NumericalSettings settings_at(const FrozenState& frozen, int order, std::size_t 
 
 namespace {
 
-/// What the finite elements know about one vesicle alone.
+/// Refuses effects that the finite-element side supports for one vesicle only.
 void require_plain_charging(const FrozenState& frozen) {
   const auto refuse = [&](const char* what) {
     throw InputError(
@@ -122,8 +122,7 @@ void require_plain_charging(const FrozenState& frozen) {
   }
 }
 
-/// @throws InputError if the scene has something that the finite-element side does not know, or knows of one vesicle
-///                    alone
+/// @throws InputError if the finite-element side does not support an effect of the scene, or for one vesicle only
 CheckContents check_contents(const FrozenState& frozen) {
   const Model& model = frozen.model;
   CheckContents contents;
@@ -185,7 +184,7 @@ Matrix total_force(const FrozenState& frozen, const VesicleFields& fields, std::
   const auto effects = explicit_effects(others, others.vesicles[vesicle]);
   if (effects.empty()) return force;
 
-  // The run file stores no other forces: they follow from the shape and the time.
+  // The run file stores no other forces; they are computed from the shape and the time.
   Instruments instruments;
   const MembraneSpace space(settings_at(frozen, order_of(position.rows()), vesicle), frozen.symmetry);
   const Membrane membrane = membrane_at(space, position, {}, 1.0, instruments);

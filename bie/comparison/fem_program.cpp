@@ -25,24 +25,23 @@ std::filesystem::path folder_of_this_program() {
 
 bool is_program(const std::filesystem::path& path) { return ::access(path.c_str(), X_OK) == 0; }
 
-/// Sets options of mpirun by variables: options on its command line differ between Open MPI 4 and 5, and neither knows
-/// the variables of the other.
+/// Sets options of mpirun by environment variables: its command-line options differ between Open MPI 4 and 5, and each
+/// version ignores the variables of the other.
 void prepare_mpirun() {
   for (const auto& [name, value] : std::initializer_list<std::pair<const char*, const char*>>{
-           // Containers often have the user root alone, and fewer slots than ranks.
+           // Containers often have only the user root, and fewer slots than ranks.
            {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
            {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
            {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
            {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"},
-           // Ranks that spin while they wait slow down those that work when anything else runs on the machine.
+           // Ranks that spin while they wait slow down working ranks if anything else runs on the machine.
            {"OMPI_MCA_mpi_yield_when_idle", "1"},
-           // An mpirun that is told to end removes its processes at once.
+           // When mpirun is stopped it ends its processes at once.
            {"OMPI_MCA_odls_base_sigkill_timeout", "0"},
            {"PRTE_MCA_odls_base_sigkill_timeout", "0"},
-           // All processes are on this machine. Where there is no network, version 5 complains about TCP, which none
-           // needs.
+           // All processes are on this machine. Without a network, version 5 complains about TCP, which is not needed.
            {"OMPI_MCA_btl", "^tcp"},
-           // Messages of its own beside those of the program; version 5 has no such variable.
+           // Suppresses messages of mpirun itself; version 5 has no such variable.
            {"OMPI_MCA_orte_execute_quiet", "1"},
        }) {
     ::setenv(name, value, 0);
@@ -72,12 +71,12 @@ FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ran
     prepare_mpirun();
     words = {"mpirun", "-n", std::to_string(n_ranks)};
   } else {
-    // A process alone needs no daemon of Open MPI's beside it.
+    // A single process needs no daemon of Open MPI.
     ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   }
   words.push_back(path_.string());
   words.insert(words.end(), arguments.begin(), arguments.end());
-  // The elements need it more.
+  // Leaves free memory to the finite elements.
   malloc_trim(0);
   const ChildEnd end = run_child({words, {}});
   if (end.start_problem != 0) {

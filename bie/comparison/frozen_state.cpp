@@ -30,7 +30,7 @@ void require_few_vesicles(std::size_t n, const std::filesystem::path& file, cons
   throw InputError(fmt::format("{}: has {} vesicles; {} accepts one or two", file.string(), n, who));
 }
 
-/// Before a solve or a mesher meets what is no shape.
+/// Refuses an invalid shape before a solver or a mesher uses it.
 /// @param what  "scene.toml: the shape", for the message
 void require_outward(const std::string& what, const Matrix& position) {
   const int order = order_of(position.rows());
@@ -54,7 +54,7 @@ bool is_scene(const std::filesystem::path& file) { return file.extension() == ".
   throw InputError(fmt::format("{}: {}", file.string(), problem));
 }
 
-/// Finite elements mesh one side of a wall with a single vesicle on it.
+/// The finite-element side supports one vesicle beside a wall, which must act on the flow and the field of the scene.
 void require_known_wall(const Scene& scene, const std::filesystem::path& file) {
   if (!scene.wall) return;
   if (n_vesicles(scene) > 1) refuse(file, "has two vesicles and a wall; vehd check accepts one of them beside a wall");
@@ -69,8 +69,8 @@ void require_known_wall(const Scene& scene, const std::filesystem::path& file) {
   }
 }
 
-/// Finite elements solve for one instant. They know a membrane that bends alike everywhere, and one capacitance where
-/// V_m follows from charges.
+/// The finite-element side solves for one instant, with a uniform bending modulus and spontaneous curvature, and with a
+/// uniform capacitance if V_m follows from charges.
 void require_known_effects(const Scene& scene, const std::filesystem::path& file) {
   if (has_averaged_field(scene)) {
     refuse(file, "has an averaged ac field; vehd check accepts fields that are followed in time, without \"average\"");
@@ -90,7 +90,7 @@ void require_known_effects(const Scene& scene, const std::filesystem::path& file
 }
 
 void require_start(const std::filesystem::path& file, const std::optional<std::string>& time) {
-  // Of a time that is not 0 the unit does not matter.
+  // For a time that is not 0 the unit does not matter.
   UnitsScene any;
   any.time = 1.0;
   if (!time || number_of_time(*time, any, OutputUnit{}) == 0.0) return;
@@ -117,8 +117,8 @@ void require_same_vesicles(const RunReader& run, const Scene& scene) {
 /// A scene, or a snapshot of a run with its scene.
 struct FrozenSource {
   std::filesystem::path file;
-  std::optional<RunReader> run{};  ///< absent, as is the snapshot: the start of the scene
-  std::size_t number = 0;          ///< of the snapshot
+  std::optional<RunReader> run{};  ///< absent for the start of a scene, as is the snapshot
+  std::size_t number = 0;          ///< number of the snapshot
   std::optional<RunSnapshot> snapshot{};
   ReadingNotes notes{};
   Scene scene{};
@@ -143,7 +143,7 @@ struct FrozenSource {
   FrozenSource(const FrozenSource&) = delete;
   FrozenSource& operator=(const FrozenSource&) = delete;
 
-  /// @throws InputError if the shape of a vesicle is none
+  /// @throws InputError if the shape of a vesicle is invalid
   void require_outward_shape(std::size_t vesicle, const Matrix& position) const {
     if (run) {
       const std::string of_one = run->n_vesicles() < 2 ? "" : fmt::format(" of vesicle {:02}", vesicle);
@@ -169,7 +169,7 @@ void start_scene(const FrozenSource& origin, FrozenState& frozen) {
   frozen.state = in_laboratory(problem.frame, evolution.state());
 }
 
-/// One vesicle of a snapshot: every field that a run of this scene writes, so that none can be missing unnoticed.
+/// Reads one vesicle of a snapshot: every field that a run of this scene writes, so that none can be missing.
 class VesicleOfSnapshot {
  public:
   VesicleOfSnapshot(const FrozenSource& origin, std::size_t vesicle)
@@ -195,12 +195,12 @@ class VesicleOfSnapshot {
     if (electric) read_potential(relaxes_charge(model), of_model.charging.capacitance, state, fields);
     state.material.capacitance = coefficients("capacitance", 1, electric && scene.capacitance_by_place);
     state.material.pump_current = coefficients("pump_current", 1, electric && scene.pump);
-    // The file has the sum of what porates and what conducts there anyway.
+    // The stored conductance is the sum of those of the pores and of the membrane.
     if (scene.conductance_by_place) of_model.reaction.reset();
     state.material.conductance = coefficients("conductance", 1, electric && scene.conductance_by_place);
     state.poration = coefficients("poration", 1, of_model.reaction != nullptr);
     fields.conductance = coefficients("conductance", 1, of_model.reaction != nullptr);
-    // The file continues them by zeros to its own degree, at which nothing was solved.
+    // In the file they are continued by zeros to its own degree, at which nothing was solved.
     const int degree = snapshot_.degree(vesicle_);
     state = resized(std::move(state), degree);
     fields = resized(std::move(fields), degree);
@@ -208,7 +208,7 @@ class VesicleOfSnapshot {
   }
 
  private:
-  /// With the area at rest of a membrane that has this tension in this shape.
+  /// Undulations with the rest area of a membrane that has this tension in this shape.
   static Undulations of_shape(Undulations undulations, const Matrix& position, const Vector& tension) {
     const int order = order_of(position.rows());
     const SphereTransform transform(order, make_grid(2 * order));
@@ -232,7 +232,7 @@ class VesicleOfSnapshot {
     state.free_charge = (fields.free_charge_in + fields.free_charge_out) / capacitance;
   }
 
-  /// @param is_written  by a run of this scene; else empty
+  /// @param is_written  whether a run of this scene writes the field; if not, the result is empty
   [[nodiscard]] Matrix coefficients(const std::string& name, Index components, bool is_written = true) const {
     return is_written ? snapshot_.coefficients(name, components, vesicle_) : Matrix();
   }
@@ -268,7 +268,7 @@ FrozenState read_frozen_state(const SceneSource& source, const std::optional<std
   frozen.names = vesicle_names(scene);
   frozen.settings = settings_of(scene);
   origin.run ? take_snapshot(origin, frozen) : start_scene(origin, frozen);
-  // In the laboratory, where the finite elements are as well.
+  // In the laboratory frame, which the finite elements use.
   if (scene.numerics.symmetry != SymmetryUse::off) frozen.symmetry = find_symmetry(frozen.model, frozen.state);
   return frozen;
 }

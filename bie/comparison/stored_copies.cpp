@@ -17,19 +17,19 @@
 namespace vehd {
 namespace {
 
-/// A file beside the one that follows from its coefficients.
+/// Compares a file with one computed from its coefficients.
 class CopyCheck {
  public:
   CopyCheck(const Hdf5Reader& stored, const Hdf5Reader& expected, int order)
       : stored_(stored), expected_(expected), rounding_(rounding_of(order)) {}
 
-  /// All objects from a group down. @param closed  see Hdf5Reader::object_checksums
+  /// Compares all objects from a group down. @param closed  see Hdf5Reader::object_checksums
   void require(const std::string& group, const std::string& closed) const {
     const ObjectChecksums objects = stored_.object_checksums(group, closed);
     for (const auto& [path, checksum] : expected_.object_checksums(group, closed)) {
       const auto object = objects.find(path);
       if (object == objects.end()) refuse(path, "is missing");
-      // The bits of this machine; another one rounds differently.
+      // Equal checksums need equal bits; another machine rounds differently.
       if (object->second != checksum) compare(path);
     }
     for (const auto& [path, checksum] : objects) {
@@ -37,7 +37,7 @@ class CopyCheck {
     }
   }
 
-  /// An attribute of a header that is a number and one that is a text.
+  /// Compares two attributes of an object, the text of a unit and its scale.
   void require_unit(const std::string& object, const std::string& unit, const std::string& scale) const {
     const double expected = expected_.number_attribute(object, scale);
     if (stored_.text_attribute(object, unit) != expected_.text_attribute(object, unit) ||
@@ -47,7 +47,7 @@ class CopyCheck {
   }
 
  private:
-  /// A value is a sum of (p + 1)² terms, and an area element has two derivatives, each of which grows by p + 1.
+  /// A value is a sum of (p + 1)² terms, and an area element has two derivatives, each of which grows with p + 1.
   static double rounding_of(int order) { return std::numeric_limits<double>::epsilon() * std::pow(order + 1.0, 4); }
 
   [[noreturn]] void refuse(const std::string& path, const std::string& problem) const {
@@ -60,7 +60,7 @@ class CopyCheck {
   }
 
   void compare(const std::string& path) const {
-    // Attributes of groups, and texts, are their own originals.
+    // Attributes of groups, and texts, are not computed from coefficients.
     if (!expected_.has_attribute(path, "scale")) return;
     require_unit(path, "unit", "scale");
     if (!expected_.holds_numbers(path)) {
@@ -82,7 +82,7 @@ class CopyCheck {
 
   static bool is_phase(const std::string& path) { return path.ends_with("_phase_deg"); }
 
-  /// A phase has no digits where its amplitude vanishes.
+  /// A phase has no accuracy where its amplitude vanishes.
   [[nodiscard]] double weight(const std::string& path, Index i) const {
     if (!is_phase(path)) return 1.0;
     const std::string amplitude = path.substr(0, path.rfind("_phase_deg")) + "_amplitude";

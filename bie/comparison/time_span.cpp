@@ -25,9 +25,9 @@ namespace {
 
 const VesicleModel& vesicle_of_span(const FrozenState& end) { return end.model.vesicles.front(); }
 
-/// Ends of the pieces on which the field is smooth.
+/// End points of the intervals on which the field is smooth.
 std::vector<double> smooth_pieces(const Waveform& waveform, double begin, double end, const std::string& file) {
-  // Rounding of a discontinuity that the run has a snapshot at.
+  // Rounding of a discontinuity at which the run has a snapshot.
   constexpr double same_time = 1e-9;
   constexpr std::size_t most_pieces = 32;
   std::vector<double> ends{begin};
@@ -64,11 +64,11 @@ void take_field(const FrozenState& end, const std::string& file, TimeSpan& span)
 }
 
 double radius_of(const Matrix& position) {
-  // √(Σ|x_nm|²/4π) over the degrees from 1 on: mean distance from the mean position.
+  // √(Σ|x_nm|²/4π) over the degrees from 1 on: root mean square distance from the mean position.
   return std::sqrt(position.bottomRows(position.rows() - 1).squaredNorm() / (4.0 * std::numbers::pi));
 }
 
-/// Bound of how far a point lies from where it lies in another series: Σ √((2n+1)/4π) |x_n| over the degrees n.
+/// Bound of the distance between corresponding points of two series: Σ √((2n+1)/4π) |x_n| over the degrees n.
 double largest_displacement(const Matrix& a, const Matrix& b) {
   const Matrix difference = a - b;
   double bound = 0.0;
@@ -132,7 +132,7 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
   span.potential = resize_order(start.coefficients("Vm", 1), start.degree());
   span.control = step_control_of(parse_scene(run.scene(), file.string() + " (scene)", file.parent_path()));
   take_shapes(run, choice.snapshot, run.nearest(span.end), end.model.mobile, span);
-  // Blocks of a mesh that ends on a wall follow the shape, and with them the directions in which it has points.
+  // Blocks of a mesh that ends on a wall follow the shape, and so do the directions in which it has points.
   refuse_if(end.model.wall && span.positions.size() > 1,
             "has a membrane that moves beside a wall between --from and --time; --from accepts one at rest there");
   take_field(end, file.string(), span);
@@ -142,7 +142,7 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
 namespace {
 
 /// The membrane at the end of a span.
-/// @param start   x to begin with; V_m is that of the span
+/// @param start   initial x; the initial V_m is that of the span
 /// @param finer   see potential_in_time()
 VesicleState advanced(const FrozenState& end, const TimeSpan& span, const Matrix& start, Model model, int order,
                       bool finer) {

@@ -22,7 +22,7 @@ herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* data) {
 std::string last_hdf5_error() {
   std::string description;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_description, &description);
-  // Of a failed system call the reason alone, without time, descriptor and addresses, which fill several lines.
+  // For a failed system call, only the reason: time, descriptor and addresses would fill several lines.
   const std::string mark = "error message = '";
   if (const std::size_t start = description.find(mark); start != std::string::npos) {
     description = description.substr(start + mark.size());
@@ -30,7 +30,7 @@ std::string last_hdf5_error() {
   }
   std::replace(description.begin(), description.end(), '\n', ' ');
   if (!description.empty()) return description;
-  // The library keeps nothing of what fails before it has begun to read or write.
+  // The library keeps no message if a call fails before it has begun to read or write.
   return errno != 0 ? std::strerror(errno) : "no details";
 }
 

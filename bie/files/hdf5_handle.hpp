@@ -39,9 +39,8 @@ class Hdf5Handle {
   Close close_ = nullptr;
 };
 
-/// The library prints its error stack by default; here every failure becomes an exception of the caller instead. Nor
-/// may it close what is still open when the program ends: a file that a full disk kept from being closed would crash
-/// it.
+/// Disables printing of the library's error stack, as every failure becomes an exception of the caller, and closing of
+/// open files when the program ends: a file that a full disk kept from being closed would crash it.
 inline void silence_hdf5() {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

@@ -10,12 +10,12 @@
 namespace vehd {
 namespace {
 
-/// No dataset or text of this program is larger, by far; what claims to be would only exhaust the memory.
+/// Far more than any dataset or text of this program has; files that claim more would only exhaust the memory.
 constexpr hsize_t most_values = hsize_t{1} << 21;
 constexpr std::size_t longest_text = std::size_t{1} << 24;
-/// Most numbers that deflate makes of one.
+/// Largest compression ratio of deflate.
 constexpr hsize_t most_inflation = 1032;
-/// Nor has one as many objects, or groups as deep in each other; links that lead back to a group above do not end.
+/// More objects and deeper groups than any file of this program has; links back to a group above would not end.
 constexpr std::size_t most_objects = std::size_t{1} << 16;
 constexpr int deepest_group = 8;
 
@@ -23,7 +23,7 @@ bool is_kind(hid_t type, H5T_class_t kind, std::size_t bytes) {
   return H5Tget_class(type) == kind && H5Tget_size(type) == bytes;
 }
 
-/// Is a dataset one chunk, shuffled and deflated?
+/// Whether a dataset is one chunk, shuffled and deflated.
 bool is_deflated(hid_t properties, const std::vector<hsize_t>& extents) {
   if (H5Pget_layout(properties) != H5D_CHUNKED) return false;
   std::vector<hsize_t> chunk(extents.size());
@@ -41,7 +41,7 @@ herr_t collect_attribute(hid_t, const char* name, const H5A_info_t*, void* names
   return 0;
 }
 
-/// Checksum of one attribute. One of a kind that this program does not write has that of its kind alone.
+/// Checksum of one attribute; for a kind that this program does not write, of its name and kind only.
 std::uint32_t checksum_of_attribute(hid_t object, const std::string& name) {
   const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
   const Hdf5Handle type(attribute.valid() ? H5Aget_type(attribute.id()) : H5I_INVALID_HID, H5Tclose);
@@ -90,7 +90,7 @@ Hdf5Reader::Hdf5Reader(const std::string& image, std::string name) : name_(std::
   silence_hdf5();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access.id(), 1 << 16, false);
-  // The library copies the image; its interface does not say so with a const.
+  // The library copies the image, although its parameter is not const.
   H5Pset_file_image(access.id(), const_cast<char*>(image.data()), image.size());
   // The library looks for a file of that name, which must not exist.
   file_ = Hdf5Handle(H5Fopen((name_ + "/image").c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
@@ -108,7 +108,7 @@ void Hdf5Reader::require_open() {
 void Hdf5Reader::refuse(const std::string& problem) const { throw InputError(fmt::format("{}: {}", name_, problem)); }
 
 bool Hdf5Reader::has(const std::string& object) const {
-  // H5Lexists wants every group on the way to exist.
+  // H5Lexists requires that every group on the way exists.
   for (std::size_t slash = object.find('/', 1);; slash = object.find('/', slash + 1)) {
     if (H5Lexists(file_.id(), object.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
     if (slash == std::string::npos) return true;
@@ -136,7 +136,7 @@ Hdf5Reader::OpenDataset Hdf5Reader::open_dataset(const std::string& dataset) con
   if (!properties.valid() || (!deflated && H5Pget_layout(properties.id()) == H5D_CHUNKED)) {
     refuse(fmt::format("dataset {} has an unknown layout", dataset));
   }
-  // A damaged layout may claim more than the file has.
+  // A damaged layout can claim more than the file has.
   const hsize_t bytes = std::min<hsize_t>(H5Dget_storage_size(result.handle.id()), bytes_);
   const hsize_t stored = value_bytes == 0 ? 0 : bytes / value_bytes * (deflated ? most_inflation : 1);
   for (const hsize_t extent : result.extents) {

@@ -41,12 +41,12 @@ class Hdf5Reader {
   /// Value of an attribute that is one text.
   [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const;
 
-  /// Whether a dataset is of double-precision numbers.
+  /// Whether a dataset contains double-precision numbers.
   [[nodiscard]] bool holds_numbers(const std::string& dataset) const;
   /// Checksum of shape, type and values of a dataset, see seal.hpp.
   [[nodiscard]] std::uint32_t dataset_checksum(const std::string& dataset) const;
   /// Checksums of all objects from a group down, except its seal.
-  /// @param closed  a group below it whose members do not count
+  /// @param closed  a group below it whose members are left out
   [[nodiscard]] ObjectChecksums object_checksums(const std::string& group, const std::string& closed = {}) const;
 
   /// Name of the file in messages.

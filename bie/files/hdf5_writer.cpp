@@ -11,10 +11,10 @@
 namespace vehd {
 namespace {
 
-// A snapshot is dozens of small datasets: whole pages spare four of five reads and writes.
+// A snapshot has dozens of small datasets: whole pages save four of five reads and writes.
 constexpr hsize_t page_bytes = 1 << 16;
 constexpr std::size_t buffered_pages = 16;
-/// What a file in memory grows by: it is cleared, and written up to the next multiple.
+/// Increment of a file in memory: it is cleared, and written up to the next multiple.
 constexpr std::size_t memory_step = 1 << 14;
 
 Hdf5Handle text_type(std::size_t length) {
@@ -24,7 +24,7 @@ Hdf5Handle text_type(std::size_t length) {
   return type;
 }
 
-/// Datasets without modification times, and not filled before they are written.
+/// Properties of datasets without modification times, which are not filled before they are written.
 Hdf5Handle dataset_properties() {
   Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(properties.id(), false);
@@ -32,11 +32,11 @@ Hdf5Handle dataset_properties() {
   return properties;
 }
 
-/// Fields of a symmetric shape repeat their bytes. Of smaller datasets the description of the filters is most.
+/// Fields of a symmetric shape compress well. Smaller datasets would be outweighed by the description of the filters.
 constexpr std::size_t least_deflated_bytes = 1 << 10;
 constexpr unsigned deflate_level = 1;
 
-/// As one chunk, deflated.
+/// Properties of a dataset of one chunk, shuffled and deflated.
 Hdf5Handle deflated(const Hdf5Handle& properties, const std::vector<hsize_t>& extents) {
   Hdf5Handle result(H5Pcopy(properties.id()), H5Pclose);
   H5Pset_chunk(result.id(), static_cast<int>(extents.size()), extents.data());
@@ -45,7 +45,7 @@ Hdf5Handle deflated(const Hdf5Handle& properties, const std::vector<hsize_t>& ex
   return result;
 }
 
-/// A snapshot's groups have about a dozen members, which cost least as a plain list.
+/// Groups of a snapshot have about a dozen members, which cost least as a plain list.
 Hdf5Handle group_properties() {
   constexpr unsigned most_in_list = 24;
   Hdf5Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
@@ -85,7 +85,7 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode)
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V110);
   if (mode == Mode::in_memory) {
-    // Of the later formats the library alters a byte in the image that it returns, and not the checksum over it.
+    // In later formats the library changes a byte in the image that it returns, but not the checksum over it.
     H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
     H5Pset_fapl_core(access.id(), memory_step, false);
     create(H5P_DEFAULT, access.id());
@@ -93,7 +93,7 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode)
     const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_file_space_strategy(creation.id(), H5F_FSPACE_STRATEGY_PAGE, false, 1);
     H5Pset_file_space_page_size(creation.id(), page_bytes);
-    // Every index of chunks has one of them.
+    // Every dataset is one chunk.
     H5Pset_istore_k(creation.id(), 1);
     create(creation.id(), access.id());
   } else {
@@ -103,7 +103,7 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Mode mode)
 
 void Hdf5Writer::create(hid_t creation, hid_t access) {
   file_ = Hdf5Handle(H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
-  // Here, as any further call would forget the reason.
+  // Checked here, as any further call would discard the reason.
   if (!file_.valid()) fail("cannot be opened");
   unsealed_["/"] = content_checksum(ContentKind::group, {}, {});
 }
@@ -115,10 +115,10 @@ void Hdf5Writer::open(hid_t access, Mode mode) {
     file_ = Hdf5Handle(H5Fopen(name_.c_str(), extends ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access), H5Fclose);
     return file_.valid();
   };
-  // Of a file to be extended only the groups at its beginning are read. Headers elsewhere must not be: HDF5 1.10
-  // guesses their size and reads beyond a buffered page where one lies at its end.
+  // In a file to be extended only the groups at its beginning are read. Headers elsewhere must not be: HDF5 1.10
+  // guesses their size and reads beyond a buffered page if one lies at its end.
   if (extends && opens_with(buffered_pages * page_bytes)) return;
-  // A file that was not made in pages is refused with a page buffer.
+  // The library refuses a page buffer for a file that was not made in pages.
   if (!opens_with(0)) fail("cannot be opened");
 }
 

@@ -15,20 +15,20 @@ namespace vehd {
 
 /// Description of a dataset, for readers without this program.
 struct DatasetLabel {
-  std::string dimension;  ///< "force/area"; "1" of a pure number
+  std::string dimension;  ///< "force/area"; "1" if dimensionless
   std::string description;
-  std::string unit = "1";  ///< of the numbers times the scale
+  std::string unit = "1";  ///< unit of the numbers times the scale
   double scale = 1.0;
 };
 
-/// Writes one HDF5 file. Times of modification are left out, so equal data make equal files.
+/// Writes one HDF5 file. Modification times are left out, so that equal data make equal files.
 /// @throws OutputError from every member
 class Hdf5Writer {
  public:
-  /// `read` is for the source of copies: it never touches the file. `in_memory` writes no file:
-  /// its path only names it in messages.
+  /// `read` opens the source of copies, which is never changed. `in_memory` writes no file: the path only names it in
+  /// messages.
   enum class Mode { create, in_memory, extend, read };
-  /// @param path  of the file, or its name in messages
+  /// @param path  path of the file, or its name in messages
   Hdf5Writer(const std::filesystem::path& path, Mode mode);
 
   /// Makes a group; its parents must exist.
@@ -43,7 +43,7 @@ class Hdf5Writer {
                 const DatasetLabel& label);
   /// Writes a dataset of one string.
   void text(const std::string& path, const std::string& value);
-  /// Copies an object with all below it.
+  /// Copies an object with everything below it.
   void copy_from(const Hdf5Writer& source, const std::string& path);
 
   /// Writes an attribute of an existing object.
@@ -51,8 +51,8 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
   void attribute(const std::string& object, const std::string& name, const std::string& value);
 
-  /// Writes the seal of a group, or of the header of the file ("/"): it covers all that was written, not copied, since
-  /// the last seal.
+  /// Writes the seal of a group, or of the header of the file ("/"): it covers everything that was written, not copied,
+  /// since the last seal.
   /// @return the checksum of the seal
   std::int64_t seal(const std::string& group);
 
@@ -62,7 +62,7 @@ class Hdf5Writer {
   /// Names of a group's members in ascending order.
   [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
 
-  /// Must be called; the destructor alone would lose the error of a full disk.
+  /// Must be called: the destructor would lose the error of a full disk.
   void close();
 
  private:

@@ -5,7 +5,7 @@
 
 namespace vehd {
 
-/// JSON as a file holds it, one member a line. Bytes that are no UTF-8, as names of files may have, become U+FFFD.
+/// JSON text of a file, one member per line. Bytes that are not UTF-8, as in some file names, become U+FFFD.
 inline std::string json_text(const nlohmann::json& json) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

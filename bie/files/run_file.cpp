@@ -20,7 +20,7 @@ const DatasetLabel charge_amplitude_label{"potential/length",
                                           "magnitude of the amplitude of q in an averaged ac field"};
 const DatasetLabel charge_part_label{"potential/length", "part of the amplitude z of q, which is Re(z exp(i omega t))"};
 
-/// With the SI unit of its dimension.
+/// A label with the SI unit of its dimension.
 DatasetLabel labelled(DatasetLabel label, const SiUnits& si_units) {
   const SiUnit unit = si_units(label.dimension);
   label.unit = unit.symbol;
@@ -28,7 +28,7 @@ DatasetLabel labelled(DatasetLabel label, const SiUnits& si_units) {
   return label;
 }
 
-/// A field of three components in [n x 3] or of one in [n x 1]: the column-major memory is the file's row-major.
+/// Extents of a field [n x 3] or [n x 1], whose column-major memory is the row-major data of the file.
 std::vector<hsize_t> extents_of(Index components, std::vector<hsize_t> points) {
   if (components > 1) points.insert(points.begin(), static_cast<hsize_t>(components));
   return points;
@@ -61,28 +61,28 @@ void write_coefficient_convention(Hdf5Writer& file, int order) {
 /// surface.
 class VesicleWriter {
  public:
-  /// @param group  that is there
+  /// @param group  existing group of the vesicle
   VesicleWriter(Hdf5Writer& file, std::string group, const SphereTransform& transform, const SiUnits& si_units)
       : file_(file), group_(std::move(group)), transform_(transform), si_units_(si_units) {
     file_.group(group_ + "/coefficients");
     file_.group(group_ + "/surface");
   }
 
-  /// Absent effects have no coefficients and write nothing.
+  /// Absent effects have no coefficients; nothing is written for them.
   void field(const std::string& name, const Matrix& coefficients, const DatasetLabel& label) {
     if (coefficients.size() == 0) return;
     const Matrix values = transform_.synthesize(coefficients);
     grid_field(name, values, label);
     numbers("coefficients/" + name, coefficients,
             extents_of(coefficients.cols(), {static_cast<hsize_t>(coefficients.rows())}), label);
-    // Viewers want the components of a point together.
+    // Viewers expect the components of a point together.
     const Matrix surface = with_poles(values, coefficients).transpose();
     std::vector<hsize_t> extents{static_cast<hsize_t>(surface.cols())};
     if (surface.rows() > 1) extents.push_back(static_cast<hsize_t>(surface.rows()));
     numbers("surface/" + name, surface, extents, label);
   }
 
-  /// A field that is computed from columns of coefficients, point by point, has none itself.
+  /// Writes a field that is computed from columns of coefficients, point by point, and has no coefficients itself.
   template <typename ValuesOf>
   void derived_field(const std::string& name, const Matrix& coefficients, const DatasetLabel& label,
                      const ValuesOf& values_of) {
@@ -118,7 +118,7 @@ void write_grid(Hdf5Writer& file, const std::string& group, const SphereGrid& gr
                {"1", "Gauss weight times azimuthal spacing: integral of f = sum of f weight area_element"});
 }
 
-/// V_m and q of an averaged field.
+/// V_m and q of an averaged ac field.
 void write_amplitudes(VesicleWriter& writer, const Matrix& potential, const Matrix& charge) {
   if (potential.size() == 0) return;
   writer.derived_field("Vm_amplitude", potential, potential_amplitude_label, magnitudes);
@@ -212,7 +212,7 @@ std::string attribute_text(const XdmfSeries& series, const std::string& group, c
       name, is_vector ? "Vector" : "Scalar", series.n_points, is_vector ? " 3" : "", series.heavy_data, group);
 }
 
-/// @param group  of the vesicle in the file
+/// @param group  group of the vesicle in the file
 std::string surface_text(const XdmfSeries& series, const std::string& name, const std::string& time,
                          const std::string& group) {
   std::string text = fmt::format(
@@ -232,7 +232,7 @@ std::string surface_text(const XdmfSeries& series, const std::string& name, cons
   return text + "      </Grid>\n";
 }
 
-/// A square of the wall.
+/// XML text of a square of the wall.
 std::string wall_text(const Matrix& corners) {
   std::string numbers;
   for (Index i = 0; i < corners.rows(); ++i) {

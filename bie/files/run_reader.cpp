@@ -16,7 +16,7 @@
 namespace vehd {
 namespace {
 
-/// Times of snapshots are exact multiples of a decimal number up to rounding; relative to the longest of them.
+/// Times of snapshots are multiples of a decimal number up to rounding; relative to the largest of them.
 constexpr double time_tolerance = 1e-9;
 
 }  // namespace
@@ -57,7 +57,7 @@ RunReader::RunReader(Hdf5Reader file) : file_(std::move(file)) {
   require_run_schema(file_);
   names_ = file_.members("/snapshots");
   const auto has_seal = [&](const std::string& name) { return file_.has(seal_path("/snapshots/" + name)); };
-  // One that is left says that the others were lost.
+  // A single remaining seal shows that the others were lost.
   is_sealed_ = file_.has(seal_path("/")) || std::ranges::any_of(names_, has_seal);
   require_sealed("/", "/snapshots");
   if (names_.empty()) file_.refuse("holds no snapshot");
@@ -66,7 +66,7 @@ RunReader::RunReader(Hdf5Reader file) : file_(std::move(file)) {
     if (const std::string expected = fmt::format("/snapshots/{:06d}", times_.size()); group != expected) {
       file_.refuse(fmt::format("lacks {}", expected));
     }
-    // Which snapshot is taken follows from the times of all: the attributes of their groups.
+    // The choice of a snapshot depends on the times of all of them, which are attributes of their groups.
     require_sealed(group, group);
     times_.push_back(file_.number_attribute(group, "time"));
     if (!std::isfinite(times_.back())) {
@@ -84,7 +84,7 @@ std::string RunReader::seal_of(const std::string& group) const {
 void RunReader::require_sealed(const std::string& group, const std::string& closed) const {
   if (!is_sealed_) return;
   std::string seal = seal_of(group);
-  // The group stands in the first line.
+  // The first line of the seal is that of the group.
   if (group == closed) seal.resize(std::min(seal.size(), seal.find('\n')));
   if (const std::string found = differences(seal, file_.object_checksums(group, closed)); !found.empty()) {
     file_.refuse("damaged or altered: " + found);
@@ -180,7 +180,7 @@ Matrix RunSnapshot::coefficients(const std::string& field, Index components, std
 
 namespace {
 
-/// Distance of a snapshot to its neighbour on the side of the time or, at an end, to its only one; 0 if it has none.
+/// Distance from a snapshot to its neighbour on the side of the time, or at an end to its only one; 0 if it has none.
 double spacing_at(const std::vector<double>& times, std::size_t snapshot, double time) {
   const std::size_t last = times.size() - 1;
   if (last == 0) return 0.0;
@@ -207,7 +207,7 @@ SnapshotChoice choose_snapshot(const RunReader& run, const std::filesystem::path
   const auto text = [&shown](double of) { return shown_time(of, shown); };
   const double same = kSameTime * std::max(spacing, std::abs(*time));
   if (distance <= same) return {snapshot, ""};
-  // Written so that a time which is not a number is refused.
+  // Written so that NaN is refused.
   if (!(distance <= 0.5 * spacing + same)) {
     throw InputError(fmt::format("{}: no snapshot near time {}; there are {} from {} to {}, the nearest at {}",
                                  file.string(), text(*time), times.size(), text(times.front()), text(times.back()),

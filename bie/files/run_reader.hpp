@@ -23,46 +23,46 @@ struct SnapshotField {
   bool is_vector = false;
 };
 
-/// Datasets that a snapshot may have of a vesicle: the fields of the table, and those derived from amplitudes and the
-/// shape.
+/// Datasets that a snapshot can have for a vesicle: the fields of the field table, and those derived from amplitudes
+/// and the shape.
 std::vector<SnapshotField> snapshot_fields();
-/// Where a snapshot has each of them.
+/// Parts of a snapshot that have each of them.
 constexpr std::array<std::string_view, 3> snapshot_parts = {"", "coefficients/", "surface/"};
 
 /// @throws InputError if the file is of another schema version
 void require_run_schema(const Hdf5Reader& file);
 
-/// Groups of the vesicles of a snapshot: that of the snapshot itself where there is one vesicle.
+/// Groups of the vesicles of a snapshot; with one vesicle, that of the snapshot itself.
 std::vector<std::string> vesicle_groups(const Hdf5Reader& file, const std::string& group);
 
-/// Attribute of a vesicle of a snapshot: the degree that it was solved in, beyond which its coefficients are zero.
+/// Attribute of a vesicle of a snapshot: the degree at which it was solved, above which its coefficients are zero.
 constexpr const char* degree_attribute = "degree";
 
-/// One snapshot of a run.h5 that is intact: it matches its seal, or the file is of an earlier vehd and has none.
+/// One intact snapshot of a run.h5: it matches its seal, or an earlier vehd wrote the file without seals.
 class RunSnapshot {
  public:
   [[nodiscard]] double time() const { return time_; }
-  /// The file in messages.
+  /// Name of the file in messages.
   [[nodiscard]] const std::string& name() const { return file_.name(); }
   [[nodiscard]] std::size_t n_vesicles() const { return n_vesicles_; }
-  /// Steps of the run until then.
+  /// Number of steps of the run until this snapshot.
   /// @throws InputError
   [[nodiscard]] std::int64_t step() const { return file_.integer_attribute(group_, "step"); }
   /// Whether it has the coefficients of this field.
-  /// @param vesicle  of several
+  /// @param vesicle  number of the vesicle
   [[nodiscard]] bool has_field(const std::string& field, std::size_t vesicle = 0) const {
     return file_.has(path_of(field, vesicle));
   }
-  /// The degree that a vesicle was solved in: with a tolerance it is lower than that of the file, as a rule. A file of
-  /// an earlier program does not have it: that of the file.
-  /// @throws InputError if it is none that x can have
+  /// Degree at which a vesicle was solved; with a tolerance usually lower than that of the file. It is that of the file
+  /// if an earlier vehd wrote it, without this attribute.
+  /// @throws InputError if x cannot have this degree
   [[nodiscard]] int degree(std::size_t vesicle = 0) const;
   /// Harmonic coefficients, [n_coefficients x components].
   /// @throws InputError
   [[nodiscard]] Matrix coefficients(const std::string& field) const { return read(field, 0); }
-  /// Coefficients with the stated number of components and the order of x.
-  /// @throws InputError if they differ
-  /// @param vesicle  of several
+  /// Coefficients, which must have the stated number of components and the degree of x.
+  /// @throws InputError if they do not
+  /// @param vesicle  number of the vesicle
   [[nodiscard]] Matrix coefficients(const std::string& field, Index components, std::size_t vesicle = 0) const;
 
  private:
@@ -81,8 +81,8 @@ class RunSnapshot {
   std::size_t n_vesicles_;
 };
 
-/// Access to the snapshots of a run.h5, whose header and times are compared with their seals at once, and each snapshot
-/// when it is opened. A file of an earlier vehd has no seals and is read as it is.
+/// Reads the snapshots of a run.h5. Its header and times are compared with their seals on opening, each snapshot when
+/// it is requested. A file of an earlier vehd has no seals and is read without these checks.
 /// @throws InputError
 class RunReader {
  public:
@@ -98,24 +98,24 @@ class RunReader {
   /// Number of the snapshot at this time, see find.
   /// @throws InputError if there is none
   [[nodiscard]] std::size_t at(double time) const;
-  /// A snapshot, which must not outlive the reader.
+  /// A snapshot; it must not outlive the reader.
   /// @throws InputError naming the object that does not match its seal
   [[nodiscard]] RunSnapshot snapshot(std::size_t number) const;
-  /// The path of the file, or its name in messages.
+  /// Path of the file, or its name in messages.
   [[nodiscard]] const std::string& name() const { return file_.name(); }
   [[nodiscard]] const Hdf5Reader& file() const { return file_; }
   /// Degree of the grid.
   [[nodiscard]] int order() const;
-  /// Whether the run has kept its scene.
+  /// Whether the file contains the scene of the run.
   [[nodiscard]] bool has_scene() const { return file_.has("/scene"); }
   /// The effective scene of the run.
   [[nodiscard]] std::string scene() const { return file_.text("/scene"); }
-  /// How many vesicles the run has.
+  /// Number of vesicles in the run.
   [[nodiscard]] std::size_t n_vesicles() const { return n_vesicles_; }
-  /// @param who  cannot do with several vesicles, "vehd mesh"
-  /// @throws InputError if there are
+  /// @param who  command that does not support several vesicles, "vehd mesh"
+  /// @throws InputError if there are several
   void require_one_vesicle(const std::string& who) const;
-  /// Whether the file has seals, without which damage goes unnoticed.
+  /// Whether the file has seals; without them damage goes unnoticed.
   [[nodiscard]] bool is_sealed() const { return is_sealed_; }
   /// Checksum of the seals of the first snapshots, at most as many as there are.
   [[nodiscard]] std::int64_t checksum(std::size_t count) const;
@@ -131,20 +131,20 @@ class RunReader {
   bool is_sealed_ = false;
 };
 
-/// The snapshot that stands for a time which was asked for.
+/// The snapshot chosen for a requested time.
 struct SnapshotChoice {
   std::size_t snapshot = 0;
-  std::string note;  ///< which other time it has; empty if it has that very time
+  std::string note;  ///< states the time of the snapshot; empty if it is the requested one
 };
 
-/// A time of a run in a unit, as messages write it and as it may be given.
+/// Text of a time of a run in a unit, for messages and as input.
 std::string shown_time(double time, const SiUnit& unit);
 
-/// The nearest snapshot, provided that it is not farther than half the distance of neighbouring snapshots there: any
-/// time within a run has one, a time well before or after has none. Without a time, the last snapshot.
-/// @param file  that `run` was read from, for messages
+/// The snapshot nearest to a time, at most half the distance of neighbouring snapshots there away: any time within a
+/// run has one, a time well before or after has none. Without a time, the last snapshot.
+/// @param file  from which `run` was read, for messages
 /// @param shown  unit of the times in messages
-/// @throws InputError naming the times between which the snapshots are, and the nearest one
+/// @throws InputError naming the first, the last and the nearest time of a snapshot
 SnapshotChoice choose_snapshot(const RunReader& run, const std::filesystem::path& file, std::optional<double> time,
                                const SiUnit& shown = {});
 

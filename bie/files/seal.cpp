@@ -12,7 +12,7 @@
 namespace vehd {
 namespace {
 
-/// Objects of a seal. A line that is none counts as an object without a path, which no file has.
+/// Objects of a seal. An invalid line counts as an object whose path no file has.
 ObjectChecksums sealed_objects(const std::string& seal) {
   ObjectChecksums objects;
   std::istringstream lines(seal);
@@ -61,7 +61,7 @@ std::int64_t seal_checksum(const std::string& seal) {
 }
 
 std::string differences(const std::string& seal, const ObjectChecksums& objects) {
-  // The first say enough: of a file that was mixed up, everything differs.
+  // The first few are enough: in a file that was mixed up, everything differs.
   constexpr std::size_t most_named = 3;
   const ObjectChecksums sealed = sealed_objects(seal);
   std::vector<std::string> found;

@@ -10,7 +10,7 @@
 namespace vehd {
 namespace {
 
-/// A checkpoint of degree 64 has a fiftieth of this; what is larger is some other file.
+/// Fifty times the size of a checkpoint of degree 64; anything larger is some other file.
 constexpr std::uintmax_t largest_bytes = std::uintmax_t{1} << 26;
 
 std::string seal_of(const std::string& content) {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-/// Files whose every bit is checked before anything is made of them: the content, then a line with its size and
-/// checksum. HDF5 ignores bytes after its own end, so a sealed HDF5 file stays readable by its tools.
+/// Files that are verified completely before they are used: the content, then a line with its size and checksum. HDF5
+/// ignores bytes after its own end, so its tools can read a sealed HDF5 file.
 namespace vehd {
 
 /// The content with its seal.

@@ -19,7 +19,7 @@ std::string compiler() {
 #else
   const std::string name = "g++ " __VERSION__;
 #endif
-  // Of several instruction sets the one that the loader took.
+  // Among several instruction sets, the one that the loader chose.
   const std::string built_for = VEHD_ARCHITECTURE;
   const std::string architecture = built_for == "levels" ? instruction_set() : built_for;
   return architecture.empty() ? name : name + " -march=" + architecture;

@@ -8,10 +8,10 @@ namespace vehd {
 /// Version of this program.
 std::string program_version();
 
-/// Commit of the source tree at build time, "-dirty" with changes on top of it; empty where git did not know.
+/// Commit of the source tree at build time, with "-dirty" if files had changed; empty if git could not determine it.
 std::string program_commit();
 
-/// Versions of the libraries that results depend on, by name, and the compiler with the instruction set it was given.
+/// Versions of the libraries that results depend on, by name, and the compiler with its instruction set.
 std::map<std::string, std::string> library_versions();
 
 }  // namespace vehd

@@ -24,13 +24,13 @@ constexpr std::int64_t schema_of_one = 13, schema_of_several = 14;
 
 std::int64_t schema_of(std::size_t n_vesicles) { return n_vesicles > 1 ? schema_of_several : schema_of_one; }
 
-/// Groups of states.
+/// Groups and datasets of states.
 constexpr const char* state_of_run = "/state";
 constexpr const char* state_of_companion = "/companion";
 constexpr const char* state_of_origin = "/origin";
 constexpr const char* run_of_origin = "/origin_run";
 
-/// Where a state has a vesicle.
+/// Group of a vesicle in that of its state.
 std::string group_of_vesicle(const std::string& state, std::size_t vesicle, std::size_t n_vesicles) {
   return n_vesicles > 1 ? fmt::format("{}/{:02d}", state, vesicle) : state;
 }
@@ -45,7 +45,7 @@ void visit_time(StateType& state, Visitor&& visit) {
   visit("past_times", state.past_times);
 }
 
-/// Those of one vesicle.
+/// The members of one vesicle, with the names under which they are stored.
 template <typename VesicleType, typename Visitor>
 void visit_vesicle(VesicleType& vesicle, Visitor&& visit) {
   visit("quadrature_level", vesicle.quadrature_level);
@@ -60,7 +60,7 @@ void visit_vesicle(VesicleType& vesicle, Visitor&& visit) {
   visit("past", vesicle.past);
 }
 
-/// What is known of a map is the coefficients of its rows and two matrices, behind its name.
+/// Suffixes of the datasets of a recycled subspace: coefficient indices of its rows, arguments, responses.
 constexpr const char* entries_of = "_entries";
 constexpr const char* arguments_of = "_arguments";
 constexpr const char* responses_of = "_responses";
@@ -92,7 +92,7 @@ std::vector<SceneChange> read_changes(const Hdf5Reader& file) {
   }
 }
 
-/// Whole numbers of a checkpoint besides those of its state.
+/// Integer members of a checkpoint besides its states.
 template <typename CheckpointType, typename Visitor>
 void visit_counts(CheckpointType& checkpoint, std::size_t n_vesicles, Visitor&& visit) {
   if (n_vesicles > 1) {
@@ -108,7 +108,7 @@ void visit_counts(CheckpointType& checkpoint, std::size_t n_vesicles, Visitor&& 
   visit("threads", checkpoint.threads);
 }
 
-/// What a companion has beside its state.
+/// Members of a companion besides its state.
 template <typename CompanionType, typename Visitor>
 void visit_companion(CompanionType& companion, Visitor&& visit) {
   visit("start_order", companion.start_order);
@@ -162,7 +162,7 @@ struct ReadVisitor {
     if (stored.count() == 0) return;
     std::vector<Index> entries;
     for (const double number : numbers) {
-      // Neither fractions nor what no degree has nor a second time the same.
+      // A run writes coefficient indices: whole numbers in ascending order, below those of the highest degree.
       const bool ascends = entries.empty() || number > static_cast<double>(entries.back());
       if (!(number >= 0.0 && number < n_coefficients(highest_order) && number == std::floor(number) && ascends)) {
         file.refuse(fmt::format("{}/{}{} are not those of a run", group, name, entries_of));
@@ -194,7 +194,7 @@ struct ReadVisitor {
   }
 };
 
-/// What no run could have written, though it is sealed.
+/// Rejects content that no run can have written, although its seal is intact.
 class SoundCheck {
  public:
   explicit SoundCheck(const Hdf5Reader& file) : file_(file) {}
@@ -213,7 +213,7 @@ class SoundCheck {
       if constexpr (std::is_same_v<decltype(value), const std::int64_t&>) require(value >= 0, name);
     });
     require(companion.start_order >= lowest_order && companion.start_order <= highest_order, "start_order");
-    // Nothing was compared before the first row is there.
+    // `waiting` is empty if no row waits, `former` if nothing has been compared.
     const bool has_both = companion.waiting.size() > 0 && companion.former.size() > 0;
     require(!has_both || companion.waiting.cols() == companion.former.size(), state_of_companion);
   }
@@ -266,7 +266,7 @@ class SoundCheck {
   const Hdf5Reader& file_;
 };
 
-/// How many vesicles a checkpoint has.
+/// Number of vesicles in a checkpoint.
 std::size_t n_vesicles_in(const Hdf5Reader& file) {
   const std::int64_t version = file.integer_attribute("/", "schema_version");
   if (version == schema_of_one) return 1;
@@ -345,7 +345,7 @@ Checkpoint checkpoint_of(const std::string& image, const std::string& name) {
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
-  // HDF5 can crash on damaged bytes, so it never sees them.
+  // HDF5 can crash on damaged bytes: the seal is verified before it reads any.
   return checkpoint_of(read_sealed_file(path), path.string());
 }
 

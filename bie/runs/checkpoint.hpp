@@ -21,44 +21,44 @@ struct RunTotals {
   std::map<std::string, std::uint64_t> pair_targets{};  ///< see Instruments
 };
 
-/// State from which error bars continue, see ErrorBars. Rows have the columns of history.csv, without units.
+/// State from which error bars are continued, see ErrorBars. Rows have the columns of history.csv, without units.
 struct CompanionState {
-  State state{};                 ///< of the companion
-  std::int64_t start_order = 0;  ///< of it, see Checkpoint
-  std::int64_t lost = 0;         ///< 1 where it cannot take a step
-  Vector former{};               ///< differences at the last comparison; empty: there was none
-  Matrix waiting{};              ///< rows of the history of which no error is known yet
-  std::int64_t bytes = 0;        ///< of history_error.csv
-  std::int64_t checksum = 0;     ///< of these bytes
+  State state{};                 ///< state of the companion run
+  std::int64_t start_order = 0;  ///< its start_order, see Checkpoint
+  std::int64_t lost = 0;         ///< 1 once it cannot take a step
+  Vector former{};               ///< differences at the last comparison; empty if there was none
+  Matrix waiting{};              ///< rows of the history whose errors are not known yet
+  std::int64_t bytes = 0;        ///< size of history_error.csv
+  std::int64_t checksum = 0;     ///< checksum of these bytes
 };
 
-/// Where a run continues another one.
+/// The run that a run continues, and the state it started from.
 struct Origin {
-  std::string run{};  ///< directory of the other one
-  State state{};      ///< in the laboratory
+  std::string run{};  ///< directory of the other run
+  State state{};      ///< in the laboratory frame
 };
 
-/// Everything that a resumed run needs to continue bit for bit, and how far the other files had got.
+/// Everything that a resumed run needs to continue bit for bit, and the extent of the other files.
 struct Checkpoint {
   std::string scene;                 ///< effective scene
-  std::vector<SceneChange> changes;  ///< that sessions have made to it, in the order of time
+  std::vector<SceneChange> changes;  ///< changes that sessions made to it, in the order of time
   std::optional<Origin> origin{};
-  /// Empty position: the run starts with the initial state of the scene.
+  /// No vesicles: the run starts with the initial state of the scene.
   State state;
-  std::int64_t start_order = 0;  ///< degree of the initial shape, in which frame and symmetry were found
-  std::int64_t n_rows = 0;       ///< rows of history.csv; 0: the state itself is not written yet
+  std::int64_t start_order = 0;  ///< degree of the initial shape, at which frame and symmetry were found
+  std::int64_t n_rows = 0;       ///< rows of history.csv; 0: the state itself has no row yet
   std::int64_t history_bytes = 0;
-  std::int64_t history_checksum = 0;   ///< of these bytes
-  std::int64_t vesicles_bytes = 0;     ///< of vesicles.csv, likewise; 0 of one vesicle
-  std::int64_t vesicles_checksum = 0;  ///< of these bytes
+  std::int64_t history_checksum = 0;   ///< checksum of these bytes
+  std::int64_t vesicles_bytes = 0;     ///< size of vesicles.csv; 0 with one vesicle
+  std::int64_t vesicles_checksum = 0;  ///< checksum of these bytes
   std::int64_t n_snapshots = 0;
-  std::int64_t snapshots_checksum = 0;  ///< of the checksums of their seals
+  std::int64_t snapshots_checksum = 0;  ///< checksum of the checksums of their seals
   std::int64_t threads = 1;
   RunTotals totals;
-  std::optional<CompanionState> companion;  ///< of a run with error bars
+  std::optional<CompanionState> companion;  ///< with error bars only
 };
 
-/// Replaces the file in one step. @throws OutputError
+/// Writes a checkpoint; an existing file is replaced in one step. @throws OutputError
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
 /// The checkpoint has the schema of another version of vehd.

@@ -11,7 +11,7 @@
 namespace vehd {
 namespace {
 
-/// Steps of the run from one comparison to the next, and how many times as large steps of the companion may be.
+/// Step of the companion over that of the run; with a tolerance, ratio of their largest steps.
 constexpr int companion_steps = 2;
 
 /// Times that differ by rounding are equal.
@@ -25,7 +25,7 @@ Scene scene_of_companion(Scene scene) {
     return scene;
   }
   *numerics.tolerance *= 10.0;
-  // Fewer by those of a digit, see default_order.
+  // One digit less of accuracy needs 8 degrees less, see default_order.
   numerics.order = std::max(std::min(numerics.order, lowest_adaptive_order), numerics.order - 8);
   return scene;
 }
@@ -47,7 +47,7 @@ ErrorBars::ErrorBars(const Scene& scene, const std::optional<CompanionState>& fr
       order_of_results_(scene.numerics.order),
       lab_frame_output_(companion_.problem().frame, settings_of(scene)),
       past_(from.value_or(CompanionState{.start_order = scene_.numerics.order})) {
-  // Where the period of the forcing limits the steps of both they would be equal, and as wrong.
+  // Otherwise a limit set by the period of the forcing would give both runs equal steps and equal errors.
   companion_.allow_steps(companion_steps);
   try {
     if (past_.lost == 0) companion_.start();
@@ -84,7 +84,7 @@ std::vector<Vector> ErrorBars::follow(bool to_end) {
   return known;
 }
 
-/// The companion makes a step, to or past a row. @returns false if the run has not gone far enough
+/// Advances the companion by a step, to or past a row. @returns false if the run has not advanced far enough
 bool ErrorBars::step(bool to_end) {
   if (past_.waiting.size() == 0) return false;
   EventTimes events{{}, scene_.numerics.end_time};
@@ -101,7 +101,7 @@ bool ErrorBars::step(bool to_end) {
   return true;
 }
 
-/// Of rows to which the companion has come, and of those before them.
+/// Compares rows that the companion has reached, and appends the errors of these and of the rows before them.
 void ErrorBars::compare(std::vector<Vector>& known) {
   for (const RecordedSide& side : companion_.sides()) {
     Matrix& waiting = past_.waiting;
@@ -112,7 +112,7 @@ void ErrorBars::compare(std::vector<Vector>& known) {
     Vector differences = (run - companion).cwiseAbs();
     differences[0] = run[0];
     for (Index i = 1; i < run.size(); ++i) {
-      // Numbers that neither has are no difference.
+      // NaN or the same infinity in both is no difference.
       if (run[i] == companion[i] || (std::isnan(run[i]) && std::isnan(companion[i]))) differences[i] = 0.0;
       if (columns_[i].name == "inclination_deg") differences[i] = std::min(differences[i], 180.0 - differences[i]);
     }
@@ -122,12 +122,12 @@ void ErrorBars::compare(std::vector<Vector>& known) {
   }
 }
 
-/// A row of history_error.csv. @param differences  at the comparison at this row or behind it
+/// A row of history_error.csv. @param differences  at the first comparison at or after this row
 Vector ErrorBars::bars_of(const Vector& row, Vector differences) const {
-  // On either side of a jump columns have other errors.
+  // Not across a jump: its two sides have different errors.
   if (past_.former.size() > 0 && past_.former[0] < row[0]) differences = differences.cwiseMax(past_.former);
   const auto truncation = std::ranges::find(columns_, "truncation", &HistoryColumn::name) - columns_.begin();
-  // Fixed steps of both have one degree.
+  // With fixed steps both runs have the same degree, and truncation is left out.
   if (scene_.numerics.tolerance) differences += row[truncation] * row.cwiseAbs();
   Vector bars = row.cwiseAbs();
   for (Index i = 1; i < row.size(); ++i) {

@@ -10,15 +10,15 @@
 
 namespace vehd {
 
-/// Times of a run as people write and read them: "0.5 ms", or a number in the unit that the header of its history
-/// names. Where there is no history beside the run, numbers count only if the scene has no unit of time.
+/// Converts times of a run from and to text: "0.5 ms", or a number in the unit that the header of its history names.
+/// Without a history beside the run, plain numbers are accepted only if the scene has no unit of time.
 class GivenTimes {
  public:
-  /// @param file  that `run` was read from
+  /// @param file  from which `run` was read
   /// @throws InputError if its scene cannot be read
   GivenTimes(const RunReader& run, const std::filesystem::path& file);
 
-  /// As a number of the scene. @throws InputError
+  /// The time as a number of the scene. @throws InputError
   [[nodiscard]] double number_of(const std::string& text) const;
   /// The unit in which times are shown.
   [[nodiscard]] SiUnit shown() const;
@@ -26,7 +26,7 @@ class GivenTimes {
  private:
   std::string file_;
   std::optional<UnitsScene> scales_;
-  std::optional<OutputUnit> unit_;  ///< absent: not known
+  std::optional<OutputUnit> unit_;  ///< absent: unknown
 };
 
 }  // namespace vehd

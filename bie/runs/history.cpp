@@ -18,7 +18,7 @@
 namespace vehd {
 namespace {
 
-/// Column behind all others: the checksum of everything before it in the file.
+/// Last column of the file: the checksum of everything before it.
 constexpr std::string_view checksum_column = "checksum";
 
 std::string header_of(std::string_view name, const std::string& unit) {
@@ -51,7 +51,7 @@ FileHeader header_in(const std::filesystem::path& path) {
   return FileHeader(line);
 }
 
-/// Columns of a file that has all, or those of an earlier vehd; nothing of any other.
+/// Number of columns of a file that has all of them, or those of an earlier vehd; otherwise nullopt.
 std::optional<std::size_t> columns_under(const FileHeader& header, HistoryKind kind) {
   const std::vector<std::string>& cells = header.cells;
   const std::vector<HistoryColumn>& known = history_columns(kind);
@@ -139,7 +139,7 @@ void HistoryFile::write(const std::string& text) {
   stream_ << text << std::flush;
   if (!stream_) {
     const std::string problem = write_problem(path_);
-    // Closing tries once more to write what did not fit.
+    // Closing tries again to write the rest: truncate the file after it.
     stream_.close();
     std::error_code ignored;
     std::filesystem::resize_file(path_, static_cast<std::uintmax_t>(bytes_), ignored);
@@ -169,7 +169,7 @@ HistoryTable::HistoryTable(std::istream& stream, std::string name) : file_(std::
   before.add(line + "\n");
   while (std::getline(stream, line)) {
     if (is_sealed_) {
-      // Without its end it is a part of a row.
+      // A last line without a newline is an incomplete row.
       if (stream.eof()) break;
       const std::size_t cell = line.rfind(',') + 1;
       before.add(line.substr(0, cell));

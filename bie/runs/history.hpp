@@ -17,15 +17,15 @@
 
 namespace vehd {
 
-/// One row of history.csv: the state at `time` and the step that led to it. Where the forcing jumps there are two rows
-/// of the same time: first the values just before with that step, then those just after with a dt of 0.
+/// One row of history.csv: the state at `time` and the step that led to it. At a jump of the forcing there are two rows
+/// of the same time: first the values just before it with that step, then those just after it with a dt of 0.
 struct HistoryRow {
   double time = 0.0;
   StepAttempt step;
   Diagnostics diagnostics;
-  int order = 0;            ///< p of the state, the highest of several vesicles
+  int order = 0;            ///< p of the state; with several vesicles, the highest
   double truncation = 0.0;  ///< see Evolution::truncation
-  // Of several vesicles.
+  // With several vesicles only.
   SmallestGap gap{};
   std::vector<int> orders{};  ///< p of each vesicle
   int vesicle = 0;            ///< number of the row's vesicle
@@ -33,20 +33,20 @@ struct HistoryRow {
 
 /// Which vesicles a table of a run covers, and which optional columns it has.
 struct HistoryKind {
-  /// history.csv of one vesicle; history.csv of all and vesicles.csv of each where there are several.
+  /// history.csv of one vesicle; with several vesicles, history.csv of all of them and vesicles.csv of each.
   enum Rows { of_one, of_all, of_each };
 
   HistoryKind(Rows of_whom = of_one) : rows(of_whom) {}  // NOLINT(google-explicit-constructor)
 
   Rows rows;
-  std::optional<PorationModel> poration{};  ///< has columns of this model
-  bool by_place = false;                    ///< has columns of a membrane that differs from place to place
+  std::optional<PorationModel> poration{};  ///< model whose columns it has
+  bool by_place = false;                    ///< has columns of a membrane with spatially varying parameters
   bool wall = false;                        ///< has columns of a wall
 };
 
 /// The kind of history.csv of a scene.
 HistoryKind history_kind(const Scene& scene);
-/// The kind with a row for each vesicle.
+/// The same kind with a row for each vesicle.
 HistoryKind of_each_like(HistoryKind kind);
 
 /// Kind of a column's values.
@@ -56,45 +56,44 @@ enum class ColumnMeaning {
   error    ///< itself an error
 };
 
-/// A column of history.csv by its plain name; its header is that name, and " [unit]" behind it where the file has
-/// units.
+/// A column of history.csv. The header in the file is its name, followed by " [unit]" if the file has units.
 struct HistoryColumn {
   std::string_view name;
-  std::string_view dimension;  ///< see units.hpp; "1" of a pure number
+  std::string_view dimension;  ///< see units.hpp; "1" if dimensionless
   double (*value)(const HistoryRow&);
   ColumnMeaning meaning = ColumnMeaning::quantity;
 };
 
-/// All columns in the order of the file: new ones come last, so that a file of an earlier vehd has the first of them.
+/// All columns in the order of the file. New ones come last, so a file of an earlier vehd has the first of them.
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind = HistoryKind::of_one);
-/// The columns of a membrane that porates, which follow all others.
+/// The columns of a membrane that porates; in the file they follow the rheology.
 std::vector<HistoryColumn> poration_columns(PorationModel model);
-/// Number of columns that every file has. A file of an earlier vehd may lack later ones and is continued without them.
+/// Number of columns that every file has. A file of an earlier vehd may lack the rest and is continued without them.
 std::size_t first_columns(HistoryKind kind);
 
 /// Values of all columns of a row, [n_columns], in the numbers of the scene.
 Vector values_of(const HistoryRow& row, HistoryKind kind);
 
-/// Compares a table with what a checkpoint counts of it, 0 bytes: nothing.
+/// Compares a table with the size and checksum in a checkpoint; with 0 bytes nothing is compared.
 /// @throws InputError naming the row that was altered, or if rows are missing at the end
 void require_history(const std::filesystem::path& path, std::int64_t bytes, std::int64_t checksum);
 
 /// @throws InputError if a table has other columns than those of its kind
 void require_columns(const std::filesystem::path& path, HistoryKind kind);
 
-/// Appends rows to history.csv; each is in the file when `append` returns.
-/// Numbers have 17 significant digits: reading them back gives the same bits. The last cell of a row is the checksum of
-/// everything in the file before it. A file of an earlier vehd goes on without.
+/// Appends rows to history.csv; each is in the file when `append` returns. Numbers have 17 significant digits: reading
+/// them back gives the same bits. The last cell of a row is the checksum of everything in the file before it, except in
+/// a file that an earlier vehd began without checksums.
 class HistoryFile {
  public:
-  /// Starts a file, or continues one after its first `kept_bytes` bytes when that is not 0.
-  /// @param checksum  of these bytes, which `require_history` has found intact
-  /// @param units  of a file that goes on those that it began with
+  /// Starts a file, or continues one after its first `kept_bytes` bytes if that is not 0.
+  /// @param checksum  checksum of these bytes, verified by `require_history`
+  /// @param units  units of the file; if it is continued, those that it began with
   /// @throws OutputError
   HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
               const OutputUnits& units = {}, HistoryKind kind = HistoryKind::of_one);
 
-  /// A row for which the disk has no room leaves no part behind.
+  /// Appends a row. If the disk is full, no part of the row stays in the file.
   /// @throws OutputError if the disk is full
   void append(const HistoryRow& row);
   /// Appends the values of all columns, [n_columns], in the numbers of the scene.
@@ -110,53 +109,53 @@ class HistoryFile {
 
   std::filesystem::path path_;
   HistoryKind kind_;
-  std::vector<double> factors_;  ///< of the columns
+  std::vector<double> factors_;  ///< unit factors of the columns
   bool is_sealed_ = true;        ///< rows end with checksums
   std::ofstream stream_;
   std::int64_t bytes_ = 0;
   Checksum checksum_;
 };
 
-/// A history.csv in memory. Columns go by their plain names, whatever the units of the file; that of checksums is none
-/// of them.
+/// A history.csv in memory. Columns have their plain names, whatever the units of the file; the checksum column is left
+/// out.
 class HistoryTable {
  public:
-  /// Reads rows that match their checksums; a part of a row at the end, which a kill can leave, is left out.
+  /// Reads a file and verifies the checksums of its rows. An incomplete last row, which a kill can leave, is ignored.
   /// @throws InputError "file:line: ..."
   explicit HistoryTable(const std::filesystem::path& path);
   /// Reads a table from any stream; `name` stands for the file in messages.
   /// @throws InputError "name:line: ..."
   HistoryTable(std::istream& stream, std::string name);
-  /// One without rows and without a file.
+  /// An empty table without a file.
   HistoryTable(const OutputUnits& units, HistoryKind kind);
 
-  /// A row more, with the bits that a file would give back, of a table that began without rows.
+  /// Appends a row to a table without a file, with the bits that reading it from a file would give.
   void append(const HistoryRow& row);
 
   [[nodiscard]] std::size_t n_rows() const { return n_rows_; }
-  /// Whether its rows have checksums, without which damage goes unnoticed.
+  /// Whether rows have checksums; without them damage goes unnoticed.
   [[nodiscard]] bool is_sealed() const { return is_sealed_; }
-  /// Of all columns, in their order.
+  /// Names of all columns, in order.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-  /// Number of steps in the rows; the start and the second row at a jump are no steps.
+  /// Number of steps in the rows; the start and the second row at a jump are not steps.
   /// @throws InputError if there is no column of step sizes
   [[nodiscard]] std::int64_t n_steps() const;
-  /// Largest magnitude in a column, 0 of none; not a number where there is one. @throws InputError as `column`
+  /// Largest magnitude in a column: 0 if it is empty, NaN if it has one. @throws InputError as `column`
   [[nodiscard]] double largest_magnitude(const std::string& name) const;
   /// Whether there is a column of this name.
   [[nodiscard]] bool has(const std::string& name) const;
-  /// In the unit of the file. @throws InputError if there is no such column
+  /// Values of a column in the unit of the file. @throws InputError if there is no such column
   [[nodiscard]] const std::vector<double>& column(const std::string& name) const;
-  /// Symbol of the unit of a column; empty where it has none. @throws InputError as `column`
+  /// Symbol of the unit of a column; empty if it has none. @throws InputError as `column`
   [[nodiscard]] const std::string& unit(const std::string& name) const;
-  /// Header of a column as it stands in the file. @throws InputError as `column`
+  /// Header of a column in the file. @throws InputError as `column`
   [[nodiscard]] std::string header(const std::string& name) const;
-  /// A time of the file with its unit behind it.
+  /// Text of a time of the file, with its unit.
   [[nodiscard]] std::string time_text(double time) const;
   /// The units of the columns.
   /// @param scales  of the scene of the run
   [[nodiscard]] OutputUnits units(std::optional<UnitsScene> scales) const { return {std::move(scales), symbols()}; }
-  /// Their symbols by dimension.
+  /// Symbols of the units by dimension.
   [[nodiscard]] std::map<std::string, std::string, std::less<>> symbols() const;
 
  private:
@@ -164,7 +163,7 @@ class HistoryTable {
 
   std::string file_;
   HistoryKind kind_ = HistoryKind::of_one;
-  std::vector<double> factors_;  ///< of the columns of a table without a file
+  std::vector<double> factors_;  ///< unit factors of a table without a file
   std::vector<std::string> names_, units_;
   std::vector<std::vector<double>> columns_;
   std::size_t n_rows_ = 0;

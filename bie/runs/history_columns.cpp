@@ -34,7 +34,7 @@ double component(const HistoryRow& row) {
   return (rheology_of(row).*vector)[i];
 }
 
-/// Of the symmetric part.
+/// Entry (i, j) of the symmetric part of a contribution to the stress.
 template <auto share, int i, int j>
 double stress(const HistoryRow& row) {
   const Matrix3 moment = std::invoke(share, rheology_of(row));
@@ -49,7 +49,7 @@ void add_stress(const std::array<std::string_view, 6>& names, std::vector<Histor
   for (std::size_t i = 0; i < names.size(); ++i) columns.push_back({names[i], "energy", entries[i]});
 }
 
-/// What vesicles do to the suspension: of one as of all.
+/// Rheology of one vesicle, or of all together.
 void add_rheology(std::vector<HistoryColumn>& columns) {
   add_stress<&Rheology::moment>({"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_xz", "stress_yz"},
                                 columns);
@@ -173,7 +173,7 @@ const std::vector<HistoryColumn>& columns_of_all() {
   return all;
 }
 
-/// What one vesicle has of its own.
+/// Columns of vesicles.csv: those of one vesicle, without those of the step.
 const std::vector<HistoryColumn>& columns_of_each() {
   static const std::vector<HistoryColumn> all = [] {
     std::vector<HistoryColumn> columns = {columns_of_one().front(), {"vesicle", "1", of_row<&HistoryRow::vesicle>}};
@@ -187,7 +187,7 @@ const std::vector<HistoryColumn>& columns_of_each() {
   return all;
 }
 
-/// Of a membrane that differs from place to place alone, behind those of one that porates.
+/// Columns of a membrane with spatially varying parameters only; they follow those of poration.
 std::vector<HistoryColumn> place_columns() {
   return {{"elastic_energy", "energy", of_vesicle<&D::elastic_energy>},
           {"net_force_x", "force", of_vesicle<&D::net_force_x>},
@@ -195,7 +195,7 @@ std::vector<HistoryColumn> place_columns() {
           {"net_force_z", "force", of_vesicle<&D::net_force_z>}};
 }
 
-/// Beside a wall.
+/// Columns beside a wall.
 std::vector<HistoryColumn> wall_columns(HistoryKind::Rows rows) {
   std::vector<HistoryColumn> columns{{"gap_wall", "length", of_vesicle<&D::gap_wall>},
                                      {"force_wall", "force", of_vesicle<&D::force_wall>}};
@@ -208,7 +208,7 @@ double shape_mode(const HistoryRow& row) {
   return row.diagnostics.vesicles.front().shape_modes[l - 2];
 }
 
-/// About the field.
+/// Modes of the shape about the direction of the field.
 std::vector<HistoryColumn> mode_columns() {
   return {{"shape_mode_2", "1", shape_mode<2>},
           {"shape_mode_3", "1", shape_mode<3>},
@@ -217,13 +217,13 @@ std::vector<HistoryColumn> mode_columns() {
           {"shape_mode_6", "1", shape_mode<6>}};
 }
 
-/// Of a linear flow that turns.
+/// Columns that vanish without a linear flow with vorticity.
 std::vector<HistoryColumn> turning_columns() {
   return {{"tumbling_frequency", "1/time", of_vesicle<&D::tumbling_frequency>},
           {"treading_frequency", "1/time", of_vesicle<&D::treading_frequency>}};
 }
 
-/// Of a flow along x with its gradient along z.
+/// Normal-stress differences of a flow along x with its gradient along z.
 std::vector<HistoryColumn> normal_stress_columns() {
   return {{"normal_stress_1", "energy",
            [](const HistoryRow& row) { return rheology_of(row).moment()(0, 0) - rheology_of(row).moment()(2, 2); }},
@@ -254,14 +254,14 @@ std::vector<HistoryColumn> poration_columns(PorationModel model) {
 }
 
 std::size_t first_columns(HistoryKind kind) {
-  // What came before the rheology.
+  // All columns before the rheology.
   const auto& all = history_columns(kind);
   return static_cast<std::size_t>(std::ranges::find(all, "stress_xx", &HistoryColumn::name) - all.begin());
 }
 
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
   static const std::array usual = {&columns_of_one(), &columns_of_all(), &columns_of_each()};
-  // Without poration and with each of its models, without places and wall and with them.
+  // Without poration and with each of its models; each with and without varying parameters and a wall.
   using OfRows = std::array<std::vector<HistoryColumn>, usual.size()>;
   static const auto of_kinds = [] {
     std::array<std::array<OfRows, 4>, n_poration_models + 1> all;
@@ -274,11 +274,11 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
             columns.insert(columns.end(), more.begin(), more.end());
           };
           const bool reacts = model > 1, of_whole = rows == HistoryKind::of_all;
-          // What each membrane of several has is told of each.
+          // With several vesicles, vesicles.csv has the columns of porosity and pores.
           if (model > 0 && !(reacts && of_whole)) append(poration_columns(static_cast<PorationModel>(model - 1)));
           if (by_place && !of_whole) append(place_columns());
           if (wall) append(wall_columns(static_cast<HistoryKind::Rows>(rows)));
-          // Histories of earlier versions end before it.
+          // Histories of earlier versions lack the columns from here on.
           if (rows != HistoryKind::of_each) append({{"wrinkle_growth", "1", wrinkle_growth, ColumnMeaning::method}});
           if (!of_whole) append({{"shape_rate", "1/time", of_vesicle<&D::shape_rate>, ColumnMeaning::method}});
           if (!of_whole) append(mode_columns());

@@ -30,7 +30,7 @@ bool may_change(const std::string& key) { return key.starts_with("numerics.") ||
 
 std::string shown(const std::string& value) { return value.empty() ? "absent" : value; }
 
-/// What a scene differs in from that of a run which it continues.
+/// Compares a scene with that of the run which it continues.
 struct Comparison {
   const Scene& scene;
   const SceneSource& source;
@@ -54,13 +54,13 @@ struct Comparison {
   }
 };
 
-/// Does a key say what acts on the vesicles, and nothing of them?
+/// Whether a key describes the flow or the field that acts on the vesicles.
 bool is_of_driving(const std::string& key) {
   return key.starts_with("flow.") || key.starts_with("electric.waveform.") || key == "electric.field" ||
          key == "electric.field_magnitude";
 }
 
-/// Degree in which a vesicle goes on.
+/// Degree at which a vesicle continues.
 int order_of_state(const Scene& scene, const VesicleState& vesicle) {
   const NumericsScene& numerics = scene.numerics;
   if (!numerics.tolerance) return numerics.order;
@@ -75,7 +75,7 @@ State adapted(State state, const Scene& before, const Scene& scene) {
     vesicle = resized(std::move(vesicle), order);
     if (before.numerics.symmetry != scene.numerics.symmetry) vesicle.recycled = {};
   }
-  // Steps chosen by a tolerance find their first size themselves.
+  // 0: with a tolerance the first step size is determined at the start.
   state.dt_next = scene.numerics.tolerance ? 0.0 : *scene.numerics.dt;
   return without_past(std::move(state));
 }
@@ -156,7 +156,7 @@ SceneSource in_scales_of(SceneSource source, const RunPaths& run) {
 Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& paths) {
   const Scene before = stored_scene(checkpoint, paths);
   const std::vector<SceneChange> changes = changes_between(before, scene, checkpoint.state.time, checkpoint.state.step);
-  // Without a row the start has not been evaluated, which may raise the degrees that it begins with.
+  // Without a row the start has not been evaluated yet, which may raise its degrees.
   if (changes.empty() && checkpoint.n_rows > 0) return checkpoint;
   checkpoint.changes.insert(checkpoint.changes.end(), changes.begin(), changes.end());
   if (checkpoint.state.step > 0) {

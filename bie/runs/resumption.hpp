@@ -8,38 +8,38 @@
 #include "bie/scene/scene.hpp"
 #include "bie/scene/settings.hpp"
 
-/// Changes of its scene that a session of a run accepts.
+/// Which changes of the scene are accepted when a run is resumed or continued.
 namespace vehd {
 
-/// The physics of a run stay what they were; [numerics] and [output] may change, but for a symmetry that was switched
-/// off and an end that lies in the past.
-/// @param source  of the scene, for messages
+/// Requires that the physics of a run are unchanged. [numerics] and [output] may change, except for output.units, a
+/// symmetry that was off, an end in the past and, with error bars, the numerics of a run that has taken a step.
+/// @param source  source of the scene, for messages
 /// @throws InputError naming file and line of the scene, the key and both its values
 void require_same_physics(const Scene& scene, const SceneSource& source, const Checkpoint& checkpoint,
                           const RunPaths& paths);
 
-/// The start of a run that continues another one from its last state, at its time, with another flow, field or
-/// waveform. Frame and symmetry are those of that state under the new scene; its steps are chosen as at a start.
-/// @param run  that is continued; it may still be running
-/// @throws InputError naming file and line of the scene, the key and both its values where more differs; if that run
-///         has taken no step, or ends later
+/// Start of a run that continues another one from its last state and time with another flow, field or waveform. Frame
+/// and symmetry are those of that state in the new scene; its steps are chosen as at a start.
+/// @param run  run that is continued; it may still be running
+/// @throws InputError naming file and line of the scene, the key and both its values if another key differs; if that
+/// run has taken no step, or is already past the end of the scene
 Checkpoint continued_from(const RunPaths& run, const Scene& scene, const SceneSource& source);
 
-/// A scene with the reference scales of the run that it continues, where its [units] leave them out: those that follow
-/// from other values change with the field and the flow. One without a run in the directory stays as it is.
+/// A scene with the reference scales of the run that it continues where its [units] omit them, as scales derived from
+/// other values change with the field and the flow. Unchanged if the directory has no run.
 SceneSource in_scales_of(SceneSource source, const RunPaths& run);
 
-/// The checkpoint from which a run goes on with the numerics of the scene, every change recorded. Where nothing has
-/// changed it is the same; without a row yet, or with a change and no step, the run starts anew from the scene;
-/// otherwise the state is cut or continued by zeros to the degree that is asked for, steps are chosen as at a start,
-/// and what solves have learned in another degree or symmetry is forgotten.
+/// Checkpoint from which a run resumes with the numerics of the scene, every change recorded. It is unchanged if the
+/// scene is and there is a row. Otherwise, before the first step the run starts again from the scene; later the state
+/// is truncated or continued by zeros to the required degree, steps are chosen as at a start, and recycled subspaces of
+/// another degree or symmetry are dropped.
 Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& paths);
 
-/// Degree and grid of run.h5: the highest that any session of the run has asked for, so that nothing is cut.
+/// Degree and grid of run.h5: the highest that any session of the run has requested, so that nothing is truncated.
 /// @throws InputError if the run has snapshots and their file cannot be read
 int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths);
 
-/// "change dt (now 0.05), degree (now 16) ... in [numerics]": what may help where no step is acceptable.
+/// "change dt (now 0.05), degree (now 16) ... in [numerics]": advice if no step is acceptable.
 std::string what_may_help(const NumericsScene& numerics);
 
 }  // namespace vehd

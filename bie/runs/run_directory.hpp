@@ -14,7 +14,7 @@ struct RunPaths {
   [[nodiscard]] std::filesystem::path history() const { return directory / "history.csv"; }
   /// Estimated errors of the history.
   [[nodiscard]] std::filesystem::path history_error() const { return directory / "history_error.csv"; }
-  /// Of each of several vesicles.
+  /// Rows of each vesicle; only with several vesicles.
   [[nodiscard]] std::filesystem::path vesicles() const { return directory / "vesicles.csv"; }
   [[nodiscard]] std::filesystem::path snapshots() const { return directory / "run.h5"; }
   [[nodiscard]] std::filesystem::path xdmf() const { return directory / "run.xdmf"; }
@@ -31,7 +31,7 @@ struct DirectoryBusy : InputError {
   using InputError::InputError;
 };
 
-/// The file system of a run directory has no locks.
+/// The file system of a run directory does not support locks.
 struct NoLocks : OutputError {
   using OutputError::OutputError;
 };
@@ -49,8 +49,8 @@ class DirectoryLock {
   int descriptor_ = -1;
 };
 
-/// Nothing of a former run is ever overwritten: refuses a directory that holds files of a run, unless these can be
-/// resumed and `resume` asks for it. @throws InputError
+/// Refuses a directory that holds files of a run, unless they can be resumed and `resume` is true: files of an earlier
+/// run are never overwritten. @throws InputError
 /// @return whether there is a run to resume
 bool admit_run(const RunPaths& paths, bool resume);
 

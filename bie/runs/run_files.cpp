@@ -14,7 +14,7 @@
 namespace vehd {
 namespace {
 
-/// Key of summary.json.
+/// Key of the checksum in summary.json.
 constexpr const char* summary_checksum = "checksum";
 
 void note_unsealed(const std::filesystem::path& file, ReadingNotes& notes) {
@@ -23,8 +23,8 @@ void note_unsealed(const std::filesystem::path& file, ReadingNotes& notes) {
   if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
 }
 
-/// The checkpoint in the folder of a file of a run; nothing where there is none, or one whose counts have another
-/// meaning because an earlier vehd wrote it.
+/// The checkpoint in the folder of a file of a run; nullopt if there is none, or if an earlier vehd wrote it and its
+/// counts have another meaning.
 std::optional<Checkpoint> checkpoint_beside(const std::filesystem::path& file, ReadingNotes& notes) {
   const std::filesystem::path checkpoint = RunPaths{file.parent_path()}.checkpoint();
   if (!std::filesystem::exists(checkpoint)) return std::nullopt;
@@ -36,7 +36,7 @@ std::optional<Checkpoint> checkpoint_beside(const std::filesystem::path& file, R
   }
 }
 
-/// What a checkpoint counts of a table.
+/// Size and checksum of a table according to a checkpoint.
 struct CountedTable {
   std::int64_t bytes = 0, checksum = 0;
 };
@@ -61,7 +61,7 @@ std::int64_t checksum_of(nlohmann::json summary) {
 }  // namespace
 
 RunReader read_snapshots(const std::filesystem::path& file, ReadingNotes& notes) {
-  // First: what is written meanwhile comes on top of what it counts.
+  // Read before the file: whatever is written meanwhile is beyond its counts.
   const std::optional<Checkpoint> checkpoint = checkpoint_beside(file, notes);
   RunReader run(file);
   if (!run.is_sealed()) {
@@ -110,7 +110,7 @@ OutputUnits units_of_run(const RunPaths& paths, const std::optional<UnitsScene>&
   const bool is_counted = std::filesystem::exists(paths.checkpoint());
   if (!is_counted && !std::filesystem::exists(paths.history())) return {};
   auto symbols = read_table(paths.history(), notes).symbols();
-  // Of several vesicles it has fewer columns than theirs.
+  // With several vesicles, vesicles.csv has dimensions that history.csv lacks.
   if (std::filesystem::exists(paths.vesicles())) symbols.merge(read_table(paths.vesicles(), notes).symbols());
   return {scales, std::move(symbols)};
 }

@@ -37,7 +37,7 @@ Checkpoint with_companion(Checkpoint start, const ErrorBars* error_bars) {
   return start;
 }
 
-/// For the companion, whose work is a part of that of the run.
+/// Threads of the companion, whose work is a fraction of that of the run.
 int threads_beside(int n_threads) {
   constexpr int kPart = 4;
   return std::max(1, n_threads / kPart);
@@ -54,7 +54,7 @@ RunOutcome advance_to_end(RecordedRun& run, const Ranks& ranks, Interruption& in
       }
       run.step();
     }
-    // One that ends at rest has no snapshot of that time.
+    // A run that ends at rest has no snapshot at that time yet.
     if (simulation.evolution().state().time < simulation.scene().numerics.end_time) run.keep_last_state();
     return {.completed = true, .reason = {}};
   } catch (const ConvergenceError& error) {
@@ -71,7 +71,7 @@ RecordedRun::RecordedRun(const RunTask& task)
       is_recorded_(start_of(task).n_rows > 0),
       tell_(task.tell),
       after_step_(task.after_step) {
-  // Others may still be reading what the first is about to change.
+  // Other ranks may still be reading files that the first rank is about to change.
   ranks_.meet();
   ranks_.together([&] {
     if (!ranks_.is_first()) return;
@@ -81,7 +81,7 @@ RecordedRun::RecordedRun(const RunTask& task)
   });
 }
 
-/// Of the rows that are known.
+/// Records known errors and the state of the companion.
 void RecordedRun::record_errors(const std::vector<Vector>& errors) {
   if (!error_bars_) return;
   ranks_.together([&] {
@@ -89,7 +89,7 @@ void RecordedRun::record_errors(const std::vector<Vector>& errors) {
   });
 }
 
-/// The step that ended last, and what errors became known meanwhile.
+/// Records the last step, and the errors that became known meanwhile.
 void RecordedRun::record(std::vector<Vector> errors) {
   const Simulation& simulation = simulation_;
   const std::vector<RecordedSide> sides = simulation.sides();
@@ -109,12 +109,12 @@ void RecordedRun::start() {
   if (!is_recorded_) record({});
 }
 
-/// Of rows that the companion comes to.
+/// Errors of the rows that the companion can reach. @param end  no further rows will come
 std::vector<Vector> RecordedRun::errors_until(bool end) {
   return error_bars_ ? error_bars_->follow(end) : std::vector<Vector>();
 }
 
-/// The companion follows as far as rows have come; on threads of its own where there are any, while the run goes on.
+/// Advances the companion as far as the rows allow; in parallel with the run if there is more than one thread.
 std::future<std::vector<Vector>> RecordedRun::following() {
   const int n_threads = omp_get_max_threads();
   const bool beside = error_bars_ && n_threads > 1 && ranks_.is_alone();

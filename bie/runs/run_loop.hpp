@@ -25,7 +25,7 @@ namespace vehd {
 struct RunOutcome {
   bool completed = false;
   std::string reason;
-  bool cannot_step = false;  ///< no step is acceptable: continued unchanged, the run would stop there again
+  bool cannot_step = false;  ///< no step is acceptable: resumed without changes, the run would stop there again
 };
 
 /// Task of a session of a run, with its callbacks.
@@ -33,32 +33,32 @@ struct RunTask {
   const Scene& scene;
   const RunPaths& paths;
   const std::optional<Checkpoint>& checkpoint;  ///< absent: a new run; otherwise see `continued`
-  TellStatus tell{};                            ///< called when the start and each step are in the files
+  TellStatus tell{};                            ///< called when the start or a step is in the files
   std::function<void()> after_step{};           ///< called when a step is in the files; may be empty
-  Ranks ranks{};                                ///< that run it together; the first one has the files
-  std::chrono::milliseconds checkpoint_lag{0};  ///< by which the checkpoint may be behind the steps
+  Ranks ranks{};                                ///< ranks that run it together; the first one writes the files
+  std::chrono::milliseconds checkpoint_lag{0};  ///< how far the checkpoint may lag behind the steps
 };
 
-/// A simulation with its files, which are up to date after every accepted step but for the lag of the checkpoint. All
-/// calls are collective.
+/// A simulation with its files, which are up to date after every accepted step except for the lag of the checkpoint.
+/// All calls are collective.
 class RecordedRun {
  public:
-  /// @param task  what it refers to must outlive the run
+  /// @param task  its references must outlive the run
   /// @throws InputError, ConvergenceError if the run cannot be started; no file of a run exists then
   explicit RecordedRun(const RunTask& task);
 
-  /// The simulation; nothing but this run steps it.
+  /// The simulation; only this run may step it.
   [[nodiscard]] Simulation& simulation() { return simulation_; }
   [[nodiscard]] const Simulation& simulation() const { return simulation_; }
   /// Solves everything at the start. @throws ConvergenceError, OutputError
   void start();
-  /// One accepted step. @throws ConvergenceError, OutputError
+  /// Takes one accepted step. @throws ConvergenceError, OutputError
   void step();
-  /// Adds a snapshot of the last state unless it has one, and brings all files up to date. @throws OutputError
+  /// Adds a snapshot of the last state unless there is one, and brings all files up to date. @throws OutputError
   void snapshot();
-  /// How the run has ended where a step has thrown this: a snapshot of the last state is added.
+  /// Outcome of a run whose step has thrown this error. Adds a snapshot of the last state.
   [[nodiscard]] RunOutcome failed(const ConvergenceError& error);
-  /// The state of the last step becomes a snapshot, unless it is one.
+  /// Adds a snapshot of the last state unless there is one.
   void keep_last_state();
   /// Brings all files up to date. @throws OutputError
   void end(const RunOutcome& outcome);
@@ -70,17 +70,16 @@ class RecordedRun {
   [[nodiscard]] std::future<std::vector<Vector>> following();
 
   Simulation simulation_;
-  std::unique_ptr<ErrorBars> error_bars_;  ///< where they are asked for
+  std::unique_ptr<ErrorBars> error_bars_;  ///< null unless requested
   Ranks ranks_;
-  std::optional<RunRecorder> recorder_;  ///< on the first rank
-  bool is_recorded_;                     ///< the state that it starts from
+  std::optional<RunRecorder> recorder_;  ///< on the first rank only
+  bool is_recorded_;                     ///< whether the files have the state that the run starts from
   TellStatus tell_;
   std::function<void()> after_step_;
 };
 
-/// Simulates from the initial state or the checkpoint to the end of the scene, with all files of the run up to date
-/// at the end of the session. Solver failures and full disks
-/// end it early; they are not exceptions.
+/// Simulates from the initial state or the checkpoint to the end of the scene. All files of the run are up to date at
+/// the end of the session. Solver failures and full disks end it early; they are not exceptions.
 /// @throws InputError, ConvergenceError if the run cannot be started; no file of a run exists then
 RunOutcome simulate(const RunTask& task, Interruption& interruption);
 

@@ -20,7 +20,7 @@ bool is_late(const std::optional<std::chrono::steady_clock::time_point>& written
 
 bool has_several(const Checkpoint& checkpoint) { return checkpoint.state.vesicles.size() > 1; }
 
-/// With its past as comments at the top.
+/// The scene with its origin and its changes as comments at the top.
 std::string scene_text(const Checkpoint& start) {
   const std::string scene = with_changes(start.scene, start.changes);
   if (!start.origin) return scene;
@@ -28,11 +28,11 @@ std::string scene_text(const Checkpoint& start) {
   return fmt::format("# from {} at time {:g} (step {})\n{}", start.origin->run, state.time, state.step, scene);
 }
 
-/// Files that go on are intact, see require_intact. The checkpoint comes first: whatever a kill leaves behind can be
-/// resumed.
+/// Starts the files of a session. Existing ones are intact, see require_intact. The checkpoint comes first, so that a
+/// kill at any point leaves a run that can be resumed.
 Checkpoint written(const RunPaths& paths, Checkpoint start, HistoryKind kind) {
   if (start.n_snapshots > 0) {
-    // Another one where a session that was killed had written the same snapshots in another degree.
+    // Different if a killed session had already written the same snapshots at another degree.
     start.snapshots_checksum = RunReader(paths.snapshots()).checksum(static_cast<std::size_t>(start.n_snapshots));
   }
   if (start.history_bytes > 0) require_columns(paths.history(), kind);
@@ -43,7 +43,7 @@ Checkpoint written(const RunPaths& paths, Checkpoint start, HistoryKind kind) {
   return start;
 }
 
-/// What the last session has left, in the degree of this one.
+/// Snapshots of the last session, converted to the degree of this one.
 SnapshotStore::Kept kept_snapshots(const RunPaths& paths, const SphereTransform& output, const Checkpoint& start,
                                    const SiUnits& si_units) {
   SnapshotStore::Kept kept{start.n_snapshots, start.snapshots_checksum, {}};
@@ -63,17 +63,17 @@ SnapshotStore::WriteHeader header_writer(const SphereTransform& output, const Ch
   };
 }
 
-/// Lists the fields of the snapshots. @param has  whether they have a dataset
+/// Lists the fields of the snapshots. @param has  whether the snapshots have this dataset
 template <typename Predicate>
 void name_fields(XdmfSeries& series, const Predicate& has) {
   for (const auto& [name, is_vector] : snapshot_fields()) {
-    // The surface is x already.
+    // x is already the geometry of the surface.
     if (name != "x" && has("surface/" + name)) (is_vector ? series.vectors : series.scalars).push_back(name);
   }
 }
 
-/// A square of the wall about the foot of the vesicles, some radii beyond it.
-/// @param x  coefficients of each
+/// Corners of a square of the wall below the vesicles, which extends some radii beyond them.
+/// @param x  coefficients of each vesicle
 Matrix square_of(const Wall& wall, const std::vector<Matrix>& x, double radius) {
   constexpr double radii_beyond = 5.0;
   Matrix middles(std::ssize(x), 3);
@@ -152,7 +152,7 @@ void RunRecorder::record(const State& state, const std::vector<RecordedSide>& si
     last_.vesicles_checksum = vesicles_->checksum();
   }
   if (is_late(snapshots_written_, longest_lag_of_files)) write_snapshots();
-  // A tenth of a run of short steps, and a quarter of what error bars add to it.
+  // Writing it after every short step takes a tenth of a run, and a quarter of the time that error bars add.
   if (is_late(saved_, checkpoint_lag_)) save(totals);
 }
 
@@ -170,7 +170,7 @@ void RunRecorder::keep_last_state(const Fields& fields) {
   write_snapshots();
 }
 
-/// Those that wait.
+/// Writes the waiting snapshots.
 void RunRecorder::write_snapshots() {
   if (waiting_.empty()) return;
   snapshots_.add(waiting_.size(), [&](Hdf5Writer& file, const std::string& name, std::size_t i) {
@@ -186,7 +186,7 @@ void RunRecorder::write_snapshots() {
   }
   waiting_.clear();
   snapshots_written_ = std::chrono::steady_clock::now();
-  // Its length grows with the run, and checkpoints may ask for snapshots after every step.
+  // Its length grows with the run, and checkpoints can write snapshots after every step.
   if (is_late(xdmf_written_, longest_lag_of_files)) write_xdmf();
 }
 

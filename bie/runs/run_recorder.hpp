@@ -16,41 +16,40 @@
 
 namespace vehd {
 
-/// Files that are written anew as a whole or opened and closed, which costs more than a short step does, may be behind
-/// by this.
+/// Largest lag of files that are rewritten as a whole, or opened and closed, which costs more than a short step does.
 constexpr std::chrono::milliseconds longest_lag_of_files{500};
 
-/// Keeps the files of a run in step with each other: history row first, snapshot second, checkpoint last, so that
-/// the checkpoint never counts what is not there. It, run.h5 and run.xdmf may lag: steps that a kill leaves uncounted
-/// are made again, and the next session lists what the last one could not.
+/// Keeps the files of a run consistent: history row first, snapshot second, checkpoint last, so that the checkpoint
+/// never counts missing data. The checkpoint, run.h5 and run.xdmf may lag: steps that were not counted at a kill are
+/// repeated, and the next session lists the snapshots that the last one did not.
 class RunRecorder {
  public:
-  /// @param start  the checkpoint to continue from; that of a new run has no rows. Its scene is the effective one, and
-  ///               it has a companion where there are error bars
-  /// @param settings  with the degree of the files, which must not be less than that of files that exist
-  /// @param frame  of the states to come: the checkpoint keeps them as they are, all other files show the laboratory
-  /// @param units  of the history: where it goes on, those that it began with
-  /// @param kind   of the history
-  /// @param wall   of the laboratory
-  /// @param checkpoint_lag  by which the checkpoint may be behind the rows until the session ends
+  /// @param start  checkpoint to continue from; that of a new run has no rows. Its scene is the effective one, and it
+  ///               has a companion if there are error bars
+  /// @param settings  with the degree of the files, which must not be less than that of existing files
+  /// @param frame  frame of the states: the checkpoint stores them unchanged, all other files show the laboratory frame
+  /// @param units  units of the history; if it is continued, those that it began with
+  /// @param kind   kind of the history
+  /// @param wall   in the laboratory frame
+  /// @param checkpoint_lag  how far the checkpoint may lag behind the rows until the session ends
   RunRecorder(const RunPaths& paths, const NumericalSettings& settings, const Frame& frame, const Checkpoint& start,
               const OutputUnits& units, HistoryKind kind, std::optional<Wall> wall,
               std::chrono::milliseconds checkpoint_lag);
 
-  /// Records one accepted state: moments within its step, and then the state, which has two sides where the forcing
-  /// jumps. Rows say themselves whether there is a snapshot of them. A kill leaves either none or all of the rows of a
-  /// step to a resumed run.
-  /// @param state  with which a run goes on
+  /// Records one accepted step: the snapshots within it, then its final state, which has two rows where the forcing
+  /// jumps. Each row states whether it has a snapshot. After a kill, a resumed run finds either none or all of the rows
+  /// of a step.
+  /// @param state  state from which a run resumes
   void record(const State& state, const std::vector<RecordedSide>& sides, const RunTotals& totals);
 
   /// Records rows of history_error.csv, [n_columns] each, and the state of the companion; to be called before record()
   /// of the same step.
   void record_errors(const std::vector<Vector>& rows, CompanionState companion);
 
-  /// Adds a snapshot of the state recorded last unless it has one.
+  /// Adds a snapshot of the last recorded state unless there is one.
   void keep_last_state(const Fields& fields);
 
-  /// Brings every file up to date, with the work that a session has done after its last row.
+  /// Brings every file up to date, including the work that the session has done since its last row.
   void end_session(const RunTotals& totals);
 
   [[nodiscard]] std::int64_t n_rows() const { return last_.n_rows; }
@@ -61,7 +60,7 @@ class RunRecorder {
   void write_snapshots();
   void save(const RunTotals& totals);
   void write_xdmf();
-  /// Lists a snapshot. @param x  coefficients of every vesicle in the laboratory
+  /// Lists a snapshot. @param x  coefficients of each vesicle in the laboratory frame
   void list_in_xdmf(double time, const std::vector<Matrix>& x);
 
   const RunPaths& paths_;
@@ -74,10 +73,10 @@ class RunRecorder {
     Fields fields;
   };
   SnapshotStore snapshots_;
-  std::vector<Snapshot> waiting_;  ///< to be written
+  std::vector<Snapshot> waiting_;  ///< not written yet
   HistoryFile history_;
-  std::optional<HistoryFile> vesicles_;  ///< of each, where there are several
-  std::optional<HistoryFile> errors_;    ///< of the history, where they are asked for
+  std::optional<HistoryFile> vesicles_;  ///< vesicles.csv, with several vesicles
+  std::optional<HistoryFile> errors_;    ///< history_error.csv, with error bars
   XdmfSeries xdmf_;
   std::optional<Wall> wall_;
   std::chrono::milliseconds checkpoint_lag_;

@@ -8,7 +8,7 @@
 namespace vehd {
 namespace {
 
-/// Numbers and words of TOML are those of JSON.
+/// Numbers and words of TOML are valid JSON.
 nlohmann::json value_of(const Scene& scene, const std::string& key) {
   const std::string text = key_text(scene, key);
   return text.empty() ? nlohmann::json() : nlohmann::json::parse(text);

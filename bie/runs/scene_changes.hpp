@@ -9,17 +9,17 @@
 
 namespace vehd {
 
-/// One key that a session of a run has found changed in the scene, and where the run stood then.
+/// A key that a session of a run found changed in the scene, and the time and step of the run then.
 struct SceneChange {
   double time = 0.0;
-  std::int64_t step = 0;         ///< accepted steps until then
+  std::int64_t step = 0;         ///< accepted steps before the change
   std::string key;               ///< "table.key"
-  nlohmann::json before, after;  ///< null where the scene has no value
+  nlohmann::json before, after;  ///< null if the scene has no value
 
   bool operator==(const SceneChange&) const = default;
 };
 
-/// Changes between the scenes of two sessions in what is computed. Where a run ends and what it shows is none.
+/// Changes of the computation between the scenes of two sessions, without the end time and [output].
 std::vector<SceneChange> changes_between(const Scene& before, const Scene& after, double time, std::int64_t step);
 
 /// An array of objects {time, step, key, from, to}.

@@ -18,7 +18,7 @@ std::unique_ptr<DirectoryLock> lock_in(const RunPaths& paths) {
   return std::make_unique<DirectoryLock>(paths.lock());
 }
 
-/// A run that has reached the end of the scene. How its steps would be computed does not matter any more.
+/// Whether a run has reached the end of the scene. Changes of its numerics do not matter then.
 bool has_ended(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
   if (checkpoint.n_rows == 0 || checkpoint.state.time < scene.numerics.end_time) return false;
   ReadingNotes notes;
@@ -26,7 +26,7 @@ bool has_ended(const Scene& scene, const Checkpoint& checkpoint, const RunPaths&
   return summary.is_object() && summary.value("completed", nlohmann::json()) == true;
 }
 
-/// That of the start, which all states of the run are kept to.
+/// Symmetry found at the start, which is imposed on all states of the run.
 std::string imposed_symmetry(const Scene& scene, const std::optional<Origin>& origin) {
   const Problem problem = problem_of(scene, scene.numerics.order, origin ? &origin->state : nullptr);
   return symmetry_text(problem.symmetry, problem.frame);

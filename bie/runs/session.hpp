@@ -18,24 +18,24 @@
 
 namespace vehd {
 
-/// One session of a run: alone in the directory of the run, from where the last session has left it.
+/// One session of a run: it has exclusive use of the directory and starts where the last session ended.
 class RunSession {
  public:
-  /// Creates the directory if it is missing. Nothing of a former run in it is touched yet.
-  /// @param source  of the scene, for messages
-  /// @param resume  whether a former run may go on
-  /// @param ranks   that run it together: all calls are collective, and only the first rank writes
-  /// @param is_claimed  the caller keeps other sessions out of the directory
+  /// Creates the directory if it is missing. Files of an earlier run in it are not changed yet.
+  /// @param source  source of the scene, for messages
+  /// @param resume  whether an earlier run may be resumed
+  /// @param ranks   ranks that run it together: all calls are collective, and only the first rank writes
+  /// @param is_claimed  whether the caller keeps other sessions out of the directory
   /// @param from     directory of the run that a new one continues; empty: none
-  /// @throws InputError if another session is at it, or if what the directory holds cannot go on with this scene
+  /// @throws InputError if another session uses the directory, or if its run cannot be resumed with this scene
   /// @throws OutputError if the directory cannot be used
   RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume,
              Ranks ranks = {}, bool is_claimed = false, const std::filesystem::path& from = {});
 
   [[nodiscard]] const RunPaths& paths() const { return paths_; }
-  /// A former session has reached the end of the scene: nothing is left to do.
+  /// Whether an earlier session has reached the end of the scene.
   [[nodiscard]] bool is_complete() const { return complete_; }
-  /// Time that former sessions have computed.
+  /// Computing time of earlier sessions.
   [[nodiscard]] double seconds_before() const { return checkpoint_ ? checkpoint_->totals.seconds : 0.0; }
   /// Changes of the scene since the last session.
   [[nodiscard]] std::vector<SceneChange> changes() const;
@@ -44,17 +44,17 @@ class RunSession {
   [[nodiscard]] RunTask task(TellStatus tell) const {
     return {scene_, paths_, checkpoint_, std::move(tell), {}, ranks_};
   }
-  /// See `simulate`.
+  /// Runs the session by `simulate`.
   /// @param checkpoint_lag  see RunTask
   RunOutcome simulate(Interruption& interruption, TellStatus tell,
                       std::chrono::milliseconds checkpoint_lag = longest_lag_of_files) const;
 
-  /// Writes summary.json, on the first rank alone. @return its content
-  /// @throws InputError, OutputError if files of the run are gone or the disk is full
+  /// Writes summary.json, on the first rank only. @return its content
+  /// @throws InputError, OutputError if files of the run are missing or the disk is full
   [[nodiscard]] nlohmann::json summarise(const RunOutcome& outcome) const;
-  /// That of the last session.
+  /// Summary of the last session.
   [[nodiscard]] nlohmann::json last_summary() const;
-  /// Leaves the directory to other sessions: this one writes nothing any more.
+  /// Releases the directory for other sessions; this session writes nothing afterwards.
   void leave() { lock_.reset(); }
 
  private:

@@ -79,7 +79,7 @@ void Simulation::start() {
 
 void Simulation::step(const EventTimes& events) {
   last_ = evolution_.step(events);
-  // Rows tell of numbers alone.
+  // Rows need only the numbers of the attempt.
   last_.state = {};
   last_.passed.clear();
 }
@@ -134,7 +134,7 @@ RunStatus Simulation::status() const {
       meter_.seconds(), time_unit_.symbol,  gap_text()};
 }
 
-/// Whether a run until rest may end.
+/// Whether a scene that runs until rest may end now.
 bool Simulation::at_rest() const {
   const NumericsScene& numerics = scene_.numerics;
   if (numerics.until != RunsUntil::rest) return false;
@@ -153,7 +153,7 @@ bool Simulation::at_rest() const {
   return true;
 }
 
-/// As the history shows it; empty of a single vesicle.
+/// The smallest gap in the unit of the history; empty for a single vesicle in unbounded fluid.
 std::string Simulation::gap_text() const {
   const double gap = evolution_.gap().distance;
   if (!std::isfinite(gap)) return {};

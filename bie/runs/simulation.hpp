@@ -14,18 +14,18 @@
 
 namespace vehd {
 
-/// A row of the history and what it tells of, in the frame that a run computes in.
+/// A row of the history with its state and fields, in the frame of the computation.
 struct RecordedSide {
   HistoryRow row;
   const State& state;
   const Fields& fields;
 };
 
-/// The row as the laboratory sees it.
-/// @param order  degree of the results, that of `laboratory`
+/// The row in the laboratory frame.
+/// @param order  degree of the results of `laboratory`
 HistoryRow row_in_laboratory(const LabFrameOutput& laboratory, int order, const RecordedSide& side);
 
-/// Work of this session on top of that of former ones.
+/// Work of this session added to that of earlier ones.
 class WorkMeter {
  public:
   WorkMeter(RunTotals before, const Instruments& instruments, Ranks ranks)
@@ -35,7 +35,7 @@ class WorkMeter {
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  /// Work of all sessions; kernels are those of all ranks, seconds of this one. Collective.
+  /// Work of all sessions: kernels are summed over all ranks, seconds are those of this rank. Collective.
   [[nodiscard]] RunTotals totals() const;
 
  private:
@@ -45,41 +45,41 @@ class WorkMeter {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// A scene on its way through time, in memory: whoever steps it decides what is kept. The steps are those of a run of
-/// the scene, bit for bit.
+/// A simulation of a scene in memory; the caller decides what is stored. Its steps are bit for bit those of a run of
+/// the scene.
 class Simulation {
  public:
   /// @param scene  must outlive the simulation
-  /// @param from   where a run goes on; that of a new one has no state
-  /// @param units  of results and messages
-  /// @param ranks  that simulate together: all calls that compute are collective
+  /// @param from   checkpoint from which a run resumes; that of a new run has no state
+  /// @param units  units of results and messages
+  /// @param ranks  ranks that simulate together: all calls that compute are collective
   /// @throws InputError if the shape file cannot be used, ConvergenceError
   Simulation(const Scene& scene, Checkpoint from, OutputUnits units, Ranks ranks = {});
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Solves everything at the start; before the first step. @throws ConvergenceError
+  /// Solves everything at the start, before the first step. @throws ConvergenceError
   void start();
-  /// Whether the end of the scene is reached.
+  /// Whether the end time is reached, or rest if the scene runs until rest.
   [[nodiscard]] bool at_end() const { return evolution_.state().time >= scene_.numerics.end_time || at_rest(); }
-  /// One accepted step. @throws ConvergenceError where none is acceptable; everything stays as it is
+  /// Takes one accepted step. @throws ConvergenceError if none is acceptable; nothing changes then
   void step() { step(events_); }
-  /// One accepted step towards other times than those of the scene.
+  /// Takes one accepted step towards other times than those of the scene.
   /// @throws ConvergenceError as step()
   void step(const EventTimes& events);
   /// See Evolution::allow_steps.
   void allow_steps(double times) { evolution_.allow_steps(times); }
 
-  /// The rows that the history gets of the start or of the last step, those of moments within it first.
+  /// The rows of the history for the start or for the last step; those of snapshots within the step come first.
   [[nodiscard]] std::vector<RecordedSide> sides() const;
-  /// Where it is after the start or the last step.
+  /// Progress after the start or the last step.
   [[nodiscard]] RunStatus status() const;
   /// Work of all sessions; collective.
   [[nodiscard]] RunTotals totals() const { return meter_.totals(); }
-  /// From which a run goes on where this one is; the numerics, the end and the snapshot times may differ from those of
-  /// the former session.
+  /// Checkpoint from which a later session resumes; its numerics, end and snapshot times may differ from those of this
+  /// one.
   [[nodiscard]] Checkpoint checkpoint() const;
-  /// A time of the scene as messages write it.
+  /// Text of a time of the scene, for messages.
   [[nodiscard]] std::string time_text(double time) const { return time_unit_.text_of(time); }
 
   [[nodiscard]] const Scene& scene() const { return scene_; }

@@ -8,10 +8,10 @@ namespace vehd {
 
 namespace {
 
-/// @param number  of the vesicle
+/// @param number  number of the vesicle
 void read_vesicle(const RunSnapshot& source, std::size_t number, VesicleState& vesicle, VesicleFields& fields) {
   const auto read = [&](const std::string& field, Index components) {
-    // An effect may be absent, a shape is not.
+    // An effect may be absent, the shape may not.
     const bool is_there = field == "x" || source.has_field(field, number);
     return is_there ? source.coefficients(field, components, number) : Matrix();
   };

@@ -9,8 +9,8 @@
 namespace vehd {
 namespace {
 
-/// Attribute of a run.h5 whose snapshots were converted: their checksum before. It vouches for them until the
-/// checkpoint knows the new one.
+/// Attribute of a run.h5 whose snapshots were converted to another degree: their checksum before. It identifies them
+/// until the checkpoint has their new checksum.
 constexpr const char* converted_from = "converted_from";
 
 std::string group_of(std::int64_t number) { return "/snapshots/" + snapshot_name(number); }
@@ -21,7 +21,7 @@ void copy_whole(const std::filesystem::path& from, const std::filesystem::path& 
   if (error) throw OutputError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
 }
 
-/// A file that could not be completed must not keep the room that a full disk lacks.
+/// Writes a file and removes it if that fails, so that it does not occupy space on a full disk.
 template <typename Write>
 void or_remove(const std::filesystem::path& file, Write write) {
   try {
@@ -53,7 +53,7 @@ SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& writ
       size_(kept.count),
       spare_size_(kept.count),
       checksum_(kept.convert ? Checksum() : Checksum(kept.checksum)) {
-  // A kill can leave a torn spare or snapshots that the checkpoint does not know yet; both are written anew.
+  // A kill can leave a damaged spare, or snapshots that the checkpoint does not count yet; both are written again.
   std::error_code ignored;
   std::filesystem::remove(spare_, ignored);
   std::filesystem::remove(link_of(path_), ignored);

@@ -19,13 +19,13 @@ namespace {
 
 constexpr std::array largest_of = {"area_drift", "volume_drift", "strain_max", "spectrum_tail", "quadrature_error"};
 
-/// At the times of the history.
+/// Changes with times in the unit of the history.
 nlohmann::json changes_in(const OutputUnit& time, std::vector<SceneChange> changes) {
   for (SceneChange& change : changes) change.time *= time.factor;
   return json_of(changes);
 }
 
-/// When and where the criterion was first met; JSON has no infinity, so null where it was not.
+/// When and where the criterion was first met; null if it was not, as JSON has no infinity.
 nlohmann::json poration_of(const HistoryTable& history) {
   const auto& times = history.column("poration_time");
   const double most = history.largest_magnitude("poration_load");
@@ -37,7 +37,7 @@ nlohmann::json poration_of(const HistoryTable& history) {
   const double x = history.column("poration_x").back(), y = history.column("poration_y").back(),
                z = history.column("poration_z").back();
   const std::string& unit = history.unit("poration_x");
-  // A top is flat, so its place is known to the root of rounding.
+  // The load is flat at its maximum, so the position is accurate to the square root of rounding only.
   const double least = 1e-6 * std::max({std::abs(x), std::abs(y), std::abs(z)});
   const auto shown = [&](double value) { return std::abs(value) < least ? 0.0 : value; };
   json["time"] = times.back();
@@ -47,7 +47,7 @@ nlohmann::json poration_of(const HistoryTable& history) {
   return json;
 }
 
-/// In units of the scene, whatever those of the history are.
+/// Largest values in units of the scene, whatever the units of the history.
 LargestValues largest_values(const HistoryTable& history, const Scene& scene) {
   const OutputUnits units = history.units(scene.units);
   const auto most = [&](const char* column, const char* dimension) {
@@ -92,7 +92,7 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
   json["order_max"] = history.largest_magnitude("order");
   json["truncation"] = history.largest_magnitude("truncation");
   const auto& separation = history.column("separation");
-  // JSON has no infinity: absent where no part of the membrane faces another.
+  // JSON has no infinity: absent if no two parts of the membrane face each other.
   if (const auto least = std::min_element(separation.begin(), separation.end());
       least != separation.end() && std::isfinite(*least)) {
     json["separation"] = *least;

@@ -9,22 +9,22 @@
 namespace vehd {
 
 /// Content of summary.json.
-/// @return  the stable keys of the command `run`, and more
+/// @return  the stable keys of the command `run`, and others
 nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const Checkpoint& checkpoint,
                           const RunOutcome& outcome);
 
-/// Entries name, value, limit and text.
+/// An array of objects {name, value, limit, text}.
 nlohmann::json json_of(const std::vector<ModelWarning>& warnings);
 
-/// The motion in shear that a history of one vesicle ends with, by the second half of its time and the angle ψ by
+/// Motion in shear at the end of a history of one vesicle, judged over the second half of its time by the angle ψ by
 /// which the shape turns about the vorticity:
 ///   "tumbling"       ψ turns by half a revolution or more
 ///   "tank-treading"  ψ stays within a degree while the membrane treads a quarter of a revolution or more
 ///   "trembling"      ψ swings by more than a degree, back and forth
-///   "unsettled"      none of these, as before the vesicle has reached its motion; longer runs tell more
-/// Empty without columns of turning and where nothing turns.
+/// "unsettled"      none of these, as before the motion has settled; a longer run may decide
+/// Empty if the history lacks the columns of turning, or if nothing turns.
 /// @param units  of the history
-/// Source: the three motions: Misbah 2006; trembling is vacillating-breathing there
+/// Source: Misbah 2006 for the three motions; trembling is called vacillating-breathing there
 std::string regime_of(const HistoryTable& history, const OutputUnits& units);
 
 }  // namespace vehd

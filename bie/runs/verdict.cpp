@@ -18,32 +18,32 @@ namespace {
 
 constexpr std::array limits = {TrustLimit{"volume_drift", 1e-6}, TrustLimit{"spectrum_tail", 5e-3},
                                TrustLimit{"quadrature_error", 1e-3}};
-/// Of an inextensible membrane.
+/// Limits of an inextensible membrane.
 constexpr std::array limits_of_area = {TrustLimit{"area_drift", 1e-6}, TrustLimit{"strain_max", 0.05}};
 
-/// Steps ring where the tension swings from one to the next by this share of its largest value, and the tail of the
-/// spectrum by this factor with it: what a field that jumps does to the tension leaves the shape alone, and a collapse
-/// raises the tail smoothly.
+/// Steps ring if the tension alternates from one to the next by this share of its largest value, and the tail of the
+/// spectrum changes by this factor at the same time. A jump of the field changes the tension but not the shape, and a
+/// collapse raises the tail smoothly.
 constexpr double least_swing = 0.01;
 constexpr double least_tail_swing = 2.0;
-/// Tails below are rounding.
+/// Smaller tails are rounding.
 constexpr double least_tail = 1e-9;
-/// A single event is no ringing. Runs that ring near the sphere have 28 such swings in 230 steps and more, all scenes
-/// of docs/scenes and all hard cases none.
+/// A single event is not ringing. Runs that ring near the sphere have at least 28 such swings in 230 steps; all scenes
+/// of docs/scenes and all hard cases have none.
 constexpr std::size_t most_swings = 4;
-/// With fixed steps a few may have to be halved; where attempts fail before more than this share of them, and before
-/// more than so many, dt is too large. Runs that ring have 0.12 and more, other hard cases that come to their end 0.03.
+/// A few fixed steps may need to be halved; dt is too large if attempts fail before more than this share of the steps
+/// and before more than this number. Runs that ring have at least 0.12, other hard cases that reach their end 0.03.
 constexpr double largest_rejecting_share = 0.1;
 constexpr std::ptrdiff_t most_rejecting = 10;
 
-/// With fixed steps, what a membrane that wrinkles more finely than its degree can show may make of what was cut off:
-/// as much as the tail of a spectrum may have. With a tolerance that is the limit. Pulses that hold their tolerance
-/// stay below it, those that miss it tenfold, or depend on the degree, are a thousand times above (docs/hard_cases.md).
+/// Limit, with fixed steps, of the truncation error that unresolved wrinkles may have amplified: that of spectrum_tail.
+/// With a tolerance it is the tolerance: pulses that meet it stay below it; those that miss it tenfold, or depend on
+/// the degree, are a thousand times above (docs/hard_cases.md).
 constexpr double most_unseen = 5e-3;
-/// What has not grown by a digit is told by its own column.
+/// An error that has grown by less than a digit is covered by the truncation column.
 constexpr double least_unseen_growth = 10.0;
 
-/// The value furthest from what is good; not a number where there is one.
+/// The worst value; NaN if there is one.
 template <typename IsWorse>
 double worst(const std::vector<double>& values, const IsWorse& is_worse) {
   double result = values.front();
@@ -54,7 +54,7 @@ double worst(const std::vector<double>& values, const IsWorse& is_worse) {
   return result;
 }
 
-/// Time of the first row whose value is not good, or nothing.
+/// Time of the first row whose value is not good; nullopt if there is none.
 template <typename IsGood>
 std::optional<double> first_time(const HistoryTable& history, const std::vector<double>& values,
                                  const IsGood& is_good) {
@@ -82,12 +82,12 @@ std::vector<std::string> beyond_limits(const HistoryTable& history, const TrustD
   return findings;
 }
 
-/// Where the membrane is compressed so much that it wrinkles more finely than the degree can show.
+/// A compressed membrane whose fastest-growing wrinkles are finer than the degree can represent.
 struct UnseenWrinkles {
   double since = 0.0;
   std::size_t worst_row = 0;
-  /// What was cut off when a time of wrinkles began, and exp of the sum of wrinkle_growth in it, where their product is
-  /// most.
+  /// Truncation at the start of an interval of such wrinkles, and exp of the sum of wrinkle_growth in it, at the row
+  /// where their product is largest.
   double seed = 0.0, growth = 1.0;
 
   [[nodiscard]] bool matters(double limit) const { return growth > least_unseen_growth && seed * growth > limit; }
@@ -109,7 +109,7 @@ std::optional<UnseenWrinkles> unseen_wrinkles(const HistoryTable& history) {
   const std::vector<double>& wrinkles = history.column("wrinkle_degree");
   const std::vector<double>& order = history.column("order");
   const std::vector<double>& truncation = history.column("truncation");
-  // Histories of earlier versions are without.
+  // Histories of earlier versions lack this column.
   const std::vector<double>* const growth = history.has("wrinkle_growth") ? &history.column("wrinkle_growth") : nullptr;
   std::optional<UnseenWrinkles> found;
   double seed = 0.0, exponent = 0.0;
@@ -132,7 +132,7 @@ std::optional<UnseenWrinkles> unseen_wrinkles(const HistoryTable& history) {
   return found;
 }
 
-/// Deviation of each value from the straight line between its neighbours; 0 at the ends and where time stands still.
+/// Deviation of each value from the straight line between its neighbours; 0 at the ends and at repeated times.
 std::vector<double> kinks(const std::vector<double>& times, const std::vector<double>& values) {
   std::vector<double> result(values.size(), 0.0);
   for (std::size_t i = 1; i + 1 < values.size(); ++i) {
@@ -144,7 +144,7 @@ std::vector<double> kinks(const std::vector<double>& times, const std::vector<do
   return result;
 }
 
-/// Steps between which tension and tail swing together.
+/// Detects steps between which tension and spectrum tail swing together.
 std::optional<std::string> ringing(const HistoryTable& history) {
   const std::vector<double>& times = history.column("time");
   const std::vector<double>& tension = history.column("tension_integral");
@@ -155,7 +155,7 @@ std::optional<std::string> ringing(const HistoryTable& history) {
   const std::vector<double> kink = kinks(times, tension);
   std::vector<double> swings;  // times
   for (std::size_t i = 1; i + 2 < times.size(); ++i) {
-    // The tail of another degree is another one.
+    // Tails at different degrees cannot be compared.
     if (order[i] != order[i - 1] || order[i] != order[i + 1]) continue;
     const bool alternates = kink[i] * kink[i + 1] < 0.0;
     const double swing = std::min(std::abs(kink[i]), std::abs(kink[i + 1]));
@@ -169,7 +169,7 @@ std::optional<std::string> ringing(const HistoryTable& history) {
                      history.time_text(swings.front()), swings.size());
 }
 
-/// A gap between two vesicles, or one and a wall, that asks for a higher degree than they have.
+/// Detects a gap between two vesicles, or to a wall, that requires a higher degree than they have.
 std::optional<std::string> narrow_gap(const HistoryTable& history) {
   if (!history.has("gap_degree")) return std::nullopt;
   const std::vector<double>& degree = history.column("gap_degree");
@@ -186,7 +186,7 @@ std::optional<std::string> narrow_gap(const HistoryTable& history) {
                      history.time_text(history.column("time")[*first]), degree[*worst_row]);
 }
 
-/// Steps of a fixed size that fail again and again.
+/// Detects fixed steps that fail repeatedly.
 std::optional<std::string> rejections(const HistoryTable& history) {
   const std::vector<double>& rejected = history.column("rejected");
   const auto fails = [](double attempts) { return attempts > 0.0; };
@@ -212,7 +212,7 @@ std::vector<TrustLimit> trust_limits(const TrustDemands& demands) {
   std::vector<TrustLimit> all;
   if (demands.keeps_area) all.assign(limits_of_area.begin(), limits_of_area.end());
   all.insert(all.end(), limits.begin(), limits.end());
-  // The highest degree that the scene allows was not enough.
+  // Exceeded only if the highest degree that the scene allows is too low.
   if (demands.tolerance) all.push_back({"truncation", *demands.tolerance});
   return all;
 }
@@ -220,11 +220,11 @@ std::vector<TrustLimit> trust_limits(const TrustDemands& demands) {
 std::string verdict_of(const HistoryTable& history, const TrustDemands& demands, const std::string& stop_reason) {
   std::vector<std::string> findings = beyond_limits(history, demands);
   if (auto finding = ringing(history)) findings.push_back(std::move(*finding));
-  // With a tolerance attempts are what finds the step.
+  // With a tolerance, rejected attempts are part of the choice of the step.
   if (!demands.tolerance) {
     if (auto finding = rejections(history)) findings.push_back(std::move(*finding));
   }
-  // By themselves no fault: a membrane is compressed at the start of a pulse that ends before anything has grown.
+  // Not a fault on their own: a pulse can compress the membrane and end before wrinkles have grown.
   const double unseen = demands.tolerance.value_or(most_unseen);
   if (const auto wrinkles = unseen_wrinkles(history);
       wrinkles && (wrinkles->matters(unseen) || !findings.empty() || !stop_reason.empty())) {

@@ -9,10 +9,10 @@
 
 namespace vehd {
 
-/// The word for a run that reached its end and whose numbers nothing speaks against.
+/// Verdict of a run that reached its end and passed every check.
 constexpr const char* trustworthy = "trustworthy";
 
-/// A run in whose history the magnitude of a column exceeds this is not trustworthy.
+/// A run is not trustworthy if the magnitude of a column of its history exceeds this.
 struct TrustLimit {
   const char* column;
   double largest;
@@ -20,23 +20,23 @@ struct TrustLimit {
 
 /// Properties of a scene that determine the limits of its verdict.
 struct TrustDemands {
-  std::optional<double> tolerance{};  ///< which the share left out by the degree must keep; none: fixed steps
+  std::optional<double> tolerance{};  ///< limit of the truncation; absent: fixed steps
   bool keeps_area = true;             ///< every membrane is inextensible
-  bool porates = false;               ///< it conducts more where it is porated
+  bool porates = false;               ///< the conductance increases where a membrane is porated
 };
 /// The properties of a scene.
 TrustDemands trust_demands(const Scene& scene);
 
-/// All that are judged in this way.
+/// All limits of columns under these demands.
 std::vector<TrustLimit> trust_limits(const TrustDemands& demands);
 
-/// Parts of the membrane that are nearer to each other, in grid spacings, are one to the grid.
+/// Facing parts of the membrane that are nearer than this, in grid spacings, are not resolved by the grid.
 constexpr double least_trusted_separation = 1.0;
 
 /// Whether the numbers of a run can be relied on, judged from its whole history.
-/// @param stop_reason  why the run ended before its time; empty if it did not
+/// @param stop_reason  why the run ended early; empty if it did not
 /// @return "trustworthy", or which number is not and since when; for a run that stopped early "stopped: " with the
-///         reason, and behind it what is not to be trusted of the time until then
+/// reason, followed by the numbers that are not trustworthy until then
 std::string verdict_of(const HistoryTable& history, const TrustDemands& demands, const std::string& stop_reason = {});
 
 }  // namespace vehd

@@ -6,7 +6,7 @@
 namespace vehd {
 namespace {
 
-/// The value that is larger in magnitude, or not a number.
+/// Keeps the value of larger magnitude, or NaN.
 void take_larger(double& value, double other) {
   if (std::isnan(value)) return;
   if (!(std::abs(other) <= std::abs(value))) value = other;

@@ -7,8 +7,8 @@
 /// Rows of the tables of a run of several vesicles at one time.
 namespace vehd {
 
-/// The row of all of them: energies, ∫λ dA and what the suspension feels are sums, everything else is the worst of any
-/// vesicle.
+/// The row of all vesicles: energies, ∫λ dA, forces and rheology are sums; every other column has the worst value of
+/// any vesicle.
 HistoryRow row_of_all(HistoryRow row);
 
 /// One row of each vesicle.

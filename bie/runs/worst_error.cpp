@@ -23,7 +23,7 @@ double size_of_column(const HistoryTable& history, const std::string& name) {
   if (!history.has(name) || std::ranges::find(counted, name) == counted.end()) return 0.0;
   if (name == "inclination_deg") return 180.0 / std::numbers::pi;
   if (name.ends_with("_north")) {
-    // Far below what the poles have where the field points along them.
+    // Zero by symmetry: far smaller than at the poles of a field along z.
     constexpr double of_symmetry = 1e-9;
     if (history.largest_magnitude("Vm_north") <= of_symmetry * history.largest_magnitude("Vm_max")) return 0.0;
   }

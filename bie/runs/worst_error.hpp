@@ -7,14 +7,14 @@
 
 namespace vehd {
 
-/// Scale of the errors of a column: its largest magnitude, a radian for an angle. 0 where they do not count: of
-/// all but shape, energy, tension and potentials, and of what vanishes by symmetry.
+/// Scale of the errors of a column: its largest magnitude, or a radian for an angle. 0 for columns whose errors do not
+/// count: all but shape, energy, tension and potentials, and those that vanish by symmetry.
 double size_of_column(const HistoryTable& history, const std::string& name);
 
-/// The largest of the estimated errors, each over the largest value of its column; of angles over a radian. Counts
-/// shape, energy, tension and potentials, but for what vanishes by symmetry.
+/// The largest estimated error relative to the largest value of its column, or to a radian for angles. Only shape,
+/// energy, tension and potentials count, without columns that vanish by symmetry.
 /// @param errors  history_error.csv, which may have fewer rows than the history
-/// @return  rows that have errors; where there are any also worst, column, time and a text of them
+/// @return  number of rows with errors; if there are any, also worst, column, time and a text
 nlohmann::json worst_error(const HistoryTable& history, const HistoryTable& errors);
 
 }  // namespace vehd

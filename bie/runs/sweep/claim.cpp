@@ -16,10 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Network file systems show the time of a file up to a minute late; the rest are a dozen missed renewals.
+/// Network file systems show the time of a file up to a minute late; the rest allows for a dozen missed renewals.
 constexpr std::chrono::seconds patience{300};
 
-/// Differs from that of every other machine, and from that of this one before it was last started.
+/// Identifies this machine since it was last started.
 const std::string& this_machine() {
   static const std::string id = text_of_file("/proc/sys/kernel/random/boot_id");
   return id;
@@ -50,7 +50,7 @@ std::unique_ptr<Claim> Claim::take(const fs::path& directory, std::chrono::milli
   }
   std::error_code problem;
   fs::create_hard_link(made.path(), claim_file(directory, last + 1), problem);
-  // A network file system may report a failure although an earlier try of its own has succeeded.
+  // A network file system may report a failure although an earlier attempt of its own succeeded.
   if (fs::hard_link_count(made.path()) > 1) {
     return std::unique_ptr<Claim>(new Claim(std::move(lock), directory, last + 1, renewal));
   }

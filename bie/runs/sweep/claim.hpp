@@ -9,13 +9,13 @@
 
 namespace vehd {
 
-/// The right to work at a run of a sweep, until destruction.
+/// The right to compute a run of a sweep, until destruction.
 ///
-/// On one machine it is the lock of the run directory, which ends with the process that has it. The locks of a file
-/// system that machines share may reach no further than each of them, and some file systems have none. So whoever has
-/// the lock also adds a file to the directory: claim.1, the next one claim.2, and so on. Of several workers that create
-/// the same one, one succeeds. The last one counts. It names the machine, and its worker renews its time. It is void if
-/// it is from this machine, where the lock was free, or older than 300 s by the clock of the file system.
+/// On one machine it is the lock of the run directory, which is released when the process ends. On a file system that
+/// machines share, a lock may act within one machine only, and some file systems have no locks. The holder of the lock
+/// therefore adds a file to the directory: claim.1, the next one claim.2, and so on. If several workers create the same
+/// file, one succeeds. The last file counts. It names the machine, and its worker renews its time. It is void if it is
+/// from this machine, where the lock was free, or older than 300 s by the clock of the file system.
 class Claim {
  public:
   /// @param directory  of the run; created if it is missing
@@ -24,13 +24,13 @@ class Claim {
   /// @throws OutputError, std::filesystem::filesystem_error if the directory cannot be used
   static std::unique_ptr<Claim> take(const std::filesystem::path& directory,
                                      std::chrono::milliseconds renewal = std::chrono::seconds(20));
-  /// Other workers need not wait.
+  /// Releases the run: other workers need not wait.
   ~Claim();
   Claim(const Claim&) = delete;
   Claim& operator=(const Claim&) = delete;
 
-  /// Another worker has a later claim, since this process was suspended. The process has got a SIGTERM when this was
-  /// noticed, so that its run ends after the step in hand; an `Interruption` must be alive.
+  /// Whether another worker has a later claim, because this process was suspended. The process receives SIGTERM when
+  /// this is detected, so that its run ends after the current step; an `Interruption` must exist.
   [[nodiscard]] bool is_lost() const;
 
  private:
@@ -38,7 +38,7 @@ class Claim {
         std::chrono::milliseconds renewal);
   void renew(const std::stop_token& stop, std::chrono::milliseconds interval) const;
 
-  std::unique_ptr<DirectoryLock> lock_;  ///< null where the file system has none
+  std::unique_ptr<DirectoryLock> lock_;  ///< null if the file system has no locks
   std::filesystem::path file_, next_;
   std::jthread renewal_;
 };

@@ -18,13 +18,13 @@ namespace {
 
 std::filesystem::path result_file(const std::filesystem::path& directory) { return directory / "result.json"; }
 
-/// A cell is one line.
+/// Replaces line breaks, as a cell is one line.
 std::string table_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
 }
 
-/// The counter to which a row belongs.
+/// Counter of the outcome of a run.
 std::int64_t& counter_of(const std::optional<RunResult>& result, SweepCount& count) {
   if (!result) return count.unfinished;
   if (result->verdict == "refused") return count.refused;
@@ -32,7 +32,7 @@ std::int64_t& counter_of(const std::optional<RunResult>& result, SweepCount& cou
   return result->reason.empty() ? count.completed : count.stopped;
 }
 
-/// Makes the table of a sweep from the results that there are.
+/// Makes the table of a sweep from the available results.
 class TableWriter {
  public:
   TableWriter(const SweepPaths& paths, const SweepFile& sweep, const std::vector<SweepRun>& runs)
@@ -68,7 +68,7 @@ class TableWriter {
       const std::optional<RunResult> result =
           run.scene ? read_result(paths_.run(run)) : RunResult{"refused", run.refusal};
       ++counter_of(result, count);
-      // Rows of one scene share a run.
+      // Rows with the same scene share a run.
       if (result && counted.insert(run.name).second) count.seconds += result->seconds;
       std::vector<std::string> cells;
       for (const VariedValue& value : run.values) cells.push_back(value.shown);
@@ -87,7 +87,7 @@ class TableWriter {
     const auto value = result.final_values.find(header);
     if (value == result.final_values.end()) return "";
     const double number = std::strtod(value->second.c_str(), nullptr);
-    // The sign of what is no number means nothing; others have no more digits than give the same number back.
+    // The sign of NaN is meaningless; other numbers have no more digits than needed to read the same number back.
     return std::isnan(number) ? "nan" : fmt::format("{}", number);
   }
 
@@ -131,7 +131,7 @@ bool has_result(const std::filesystem::path& directory) { return ::access(result
 SweepCount write_sweep_table(const SweepPaths& paths, const SweepFile& sweep, const std::vector<SweepRun>& runs) {
   const TableWriter writer(paths, sweep, runs);
   replace_shared_file(paths.description(), json_text(writer.description()));
-  // Whoever writes last has seen all: results that other workers have added meanwhile are looked for once more.
+  // Repeated until nothing changes, so that the last writer includes results that other workers added meanwhile.
   for (std::string written;;) {
     SweepCount count;
     const std::string text = writer.table(count);

@@ -18,7 +18,7 @@ struct SweepPaths {
   std::filesystem::path directory;
 
   [[nodiscard]] std::filesystem::path table() const { return directory / "table.csv"; }
-  /// Keys and columns of the table, and where its runs come from.
+  /// Keys and columns of the table, and the source of its runs.
   [[nodiscard]] std::filesystem::path description() const { return directory / "sweep.json"; }
   [[nodiscard]] std::filesystem::path runs() const { return directory / "runs"; }
   [[nodiscard]] std::filesystem::path run(const SweepRun& run) const { return runs() / run.name; }
@@ -31,8 +31,8 @@ struct SweepPaths {
 struct RunResult {
   std::string verdict{};  ///< of the run, or "refused", or "crashed"
   std::string reason{};   ///< why it did not reach its end; empty if it did
-  double seconds = 0.0;   ///< on the clock, from opening its directory until all its files are written
-  /// Of the last row of its history, by column, as written.
+  double seconds = 0.0;   ///< wall time; of the last session including set-up and files
+  /// Last row of its history as written, by column.
   std::map<std::string, std::string, std::less<>> final_values{};
 };
 
@@ -47,16 +47,16 @@ std::optional<RunResult> read_result(const std::filesystem::path& directory);
 /// Whether read_result finds a result.
 bool has_result(const std::filesystem::path& directory);
 
-/// Rows of a table by how their runs ended.
+/// Numbers of rows by the outcome of their runs.
 struct SweepCount {
   std::int64_t completed = 0, stopped = 0, refused = 0, crashed = 0;
   std::int64_t unfinished = 0;  ///< running or waiting
-  double seconds = 0.0;         ///< of all runs together
+  double seconds = 0.0;         ///< sum over all runs
 };
 
-/// Writes table.csv: one row for each run in the order of the sweep, its values, the columns asked for, verdict,
-/// reason, seconds and the name of its directory; and sweep.json. The table follows from the results alone, whoever
-/// computed them and in which order. Of several writers at once the last one has all results.
+/// Writes sweep.json and table.csv: one row for each run in the order of the sweep with its values, the requested
+/// columns, verdict, reason, seconds and the name of its directory. The table depends on the results only, not on who
+/// computed them or in which order. Of several simultaneous writers the last one has all results.
 /// @throws OutputError
 SweepCount write_sweep_table(const SweepPaths& paths, const SweepFile& sweep, const std::vector<SweepRun>& runs);
 

@@ -43,7 +43,7 @@ std::optional<RunResult> compute(const SweepTask& task, const SweepRun& run, Int
       summary = session.summarise(outcome);
     }
     RunResult result = result_of(session.paths(), summary);
-    // Of former sessions, and of this one set-up, steps and files alike.
+    // Computing time of earlier sessions; of this session also set-up and files.
     result.seconds = session.seconds_before() + seconds();
     return result;
   } catch (const InputError& error) {
@@ -61,10 +61,10 @@ std::optional<RunResult> compute(const SweepTask& task, const SweepRun& run, Int
 /// Claims a run and computes it. @return whether it has a result now
 bool finish_run(const SweepTask& task, std::size_t number, Interruption& interruption, WorkerBoard& board) {
   const SweepRun& run = task.runs[number];
-  // First of all: a worker that is killed as it claims a run was at this one.
+  // Set before the claim, so that a worker killed while it claims a run is attributed to this run.
   board.run = number + 1;
   const auto claim = Claim::take(task.paths.run(run));
-  // Another worker may have finished it just before.
+  // Another worker may have just finished it.
   const bool is_done = claim && has_result(task.paths.run(run));
   if (!claim || is_done) {
     board.run = 0;
@@ -97,7 +97,7 @@ WorkerEnd claim_runs(const SweepTask& task, Interruption& interruption, WorkerBo
   return WorkerEnd::nothing_left;
 }
 
-/// The worker processes of this machine, and what their ends mean.
+/// The worker processes of this machine, and the response to their ends.
 class Workers {
  public:
   Workers(const SweepTask& task, Interruption& interruption)
@@ -128,7 +128,7 @@ class Workers {
  private:
   [[nodiscard]] std::size_t n_workers() const { return static_cast<std::size_t>(task_.n_workers); }
 
-  /// In a copy of this process.
+  /// Runs in a copy of this process.
   int work(int number) {
     const ThreadCount threads(task_.n_threads);
     return static_cast<int>(work_at_sweep(task_, interruption_, boards_[static_cast<std::size_t>(number)]));
@@ -149,13 +149,13 @@ class Workers {
     } else if (interruption_.requested()) {
       stop("a signal came");
     }
-    // What else interrupts a worker was meant for this one alone.
+    // Any other interruption was meant for this worker only.
     if (!problem_) crew_.start(end.number);
   }
 
-  /// A worker was ended by a signal. If another worker has resumed its run by now, the result of that replaces this
-  /// one.
-  /// @param run  counted from 1; 0: it had none
+  /// Counts a worker that was ended by a signal. If another worker has resumed its run meanwhile, the result of that
+  /// worker replaces this one.
+  /// @param run  counted from 1; 0: the worker had none
   void count_kill(std::size_t run, int signal) {
     constexpr int most_kills = 20;
     const int kills = ++n_kills_[run];
@@ -191,8 +191,8 @@ class Workers {
   std::span<WorkerBoard> boards_;
   Crew crew_;
   std::optional<std::string> problem_;  ///< why workers end early
-  std::map<std::size_t, int> n_kills_;  ///< of each run
-  std::int64_t n_runs_ = 0;             ///< without a result at the start
+  std::map<std::size_t, int> n_kills_;  ///< for each run
+  std::int64_t n_runs_ = 0;             ///< runs without a result at the start
 };
 
 }  // namespace
