@@ -18,19 +18,19 @@
 namespace vehd {
 namespace {
 
-/// Work was given up because its time was over.
+/// The time limit of some work has passed.
 class OutOfTime : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Ends work once its time is over: instruments that it observes throw OutOfTime where the next part begins.
+/// Time limit of some work: once it has passed, observed instruments throw OutOfTime when the next part begins.
 class Deadline : public PartObserver {
  public:
   /// @param seconds  from now
   explicit Deadline(double seconds) : seconds_(seconds) {}
 
-  /// Negative once it is over.
+  /// Negative once the limit has passed.
   [[nodiscard]] double seconds_left() const {
     return seconds_ - std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
@@ -52,20 +52,20 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 std::int64_t rounded(double count) { return std::llround(std::min(count, 1e18)); }
 
-/// A run without files, or its beginning.
+/// Steps of a run without files, to the end of the scene or as far as the trial went.
 struct TrialRun {
-  std::vector<double> times;    ///< at the ends of its steps
-  std::vector<double> seconds;  ///< that its steps took
-  double all_seconds = 0.0;     ///< with those of its start
-  double evaluations = 0.0;     ///< of new shapes by its steps
+  std::vector<double> times;    ///< at the end of each step
+  std::vector<double> seconds;  ///< duration of each step
+  double all_seconds = 0.0;     ///< of the steps and of the start
+  double evaluations = 0.0;     ///< of new shapes, by the steps
   double snapshots = 0.0;       ///< evaluations at snapshots within steps
-  int order = 0;                ///< highest degree; 0: there was no time to evaluate its start
+  int order = 0;                ///< highest degree; 0: no time to evaluate the start
   bool completed = false;
   std::string stops{};  ///< why no further step could be taken
 
   [[nodiscard]] bool is_known() const { return completed || !times.empty(); }
   [[nodiscard]] double n_steps() const { return static_cast<double>(times.size()); }
-  /// Steps of the whole run over those taken, if those left are as long as those of the later half.
+  /// Steps of the whole run over steps taken, if the remaining steps are as long as those of the later half so far.
   [[nodiscard]] double whole(double end_time) const {
     if (completed) return 1.0;
     const std::size_t half = times.size() / 2;
@@ -74,7 +74,7 @@ struct TrialRun {
   }
 };
 
-/// Takes steps to the end of the scene, but no more than these and none after these seconds, one at least.
+/// Takes steps until the end of the scene, most_steps or the given seconds are reached, but at least one.
 TrialRun run_trial(const Scene& scene, std::int64_t most_steps, double seconds, Deadline& deadline) {
   const EventTimes events = events_of(scene);
   TrialRun trial;
@@ -103,27 +103,27 @@ TrialRun run_trial(const Scene& scene, std::int64_t most_steps, double seconds, 
   } catch (const ConvergenceError& error) {
     trial.stops = error.what();
   } catch (const OutOfTime&) {
-    // The steps before it count.
+    // The steps taken so far are used.
   }
   return trial;
 }
 
-/// The scene itself if it has this tolerance.
+/// The scene at this tolerance; unchanged if it has it already.
 Scene with_tolerance(const Scene& scene, double tolerance) {
   return scene.numerics.tolerance == tolerance ? scene : at_tolerance(scene, tolerance);
 }
 
-/// Steps of one degree, timed or extrapolated.
+/// Cost of a step of one degree, timed or extrapolated.
 struct StepCost {
-  int order = 0;         ///< 0: nothing is known
-  double seconds = 0.0;  ///< of one
-  double bytes = 0.0;    ///< most memory of the process
-  double took = 0.0;     ///< seconds of timing them
+  int order = 0;         ///< 0: unknown
+  double seconds = 0.0;  ///< per step
+  double bytes = 0.0;    ///< peak memory of the process
+  double took = 0.0;     ///< spent on timing, in seconds
   std::string stops{};   ///< why a step could not be taken
 };
 
-/// Mean time of steps from the start of a scene of fixed steps, without the first two if there are more; without any,
-/// that of the start. @param seconds  after which no step begins but the first
+/// Mean time of fixed steps from the start, without the first two if there are more; without steps, that of the start.
+/// @param seconds  after which only the first step may begin
 StepCost timed_steps(Scene scene, int order, double seconds, Deadline& deadline) {
   constexpr std::size_t kWarmUp = 2, kMost = 18;
   scene.numerics.order = order;
@@ -134,9 +134,9 @@ StepCost timed_steps(Scene scene, int order, double seconds, Deadline& deadline)
   return {order, steps.empty() ? run.all_seconds : mean, static_cast<double>(peak_memory_bytes()), run.all_seconds};
 }
 
-/// Timed if that is expected to fit into the time left; otherwise from a lower degree by power laws, measured of
-/// shapes: 3.5 for sheared ones from 14 to 26, 2.9 for axisymmetric ones from 48 to 56.
-/// @param seconds  see timed_steps
+/// Cost of a step: timed if that is expected to fit into the time left, otherwise from a lower degree by power laws.
+/// Measured exponents: 3.5 for sheared shapes from degree 14 to 26, 2.9 for axisymmetric ones from 48 to 56.
+/// @param seconds  as in timed_steps
 StepCost step_cost(const Scene& scene, int order, const StepCost& lower, double seconds, Deadline& deadline) {
   constexpr double kSeconds = 3.5, kBytes = 4.0, kMostSeconds = 4.5;
   if (order <= lower.order) return lower;
@@ -161,15 +161,14 @@ Scene with_fixed_steps(Scene scene, double dt) {
   return scene;
 }
 
-/// What a run spends on its files; each snapshot is written in the highest degree. Measured once: 2.5 ms a snapshot at
-/// p = 16, 6.5 ms at p = 40.
+/// Time spent on files; snapshots have the highest degree. Measured: 2.5 ms a snapshot at p = 16, 6.5 ms at p = 40.
 double file_seconds(const Scene& scene, double steps, int order) {
   constexpr double kPerRow = 2e-4, kPerSnapshot = 2e-3, kPerPoint = 1.4e-6;
   const double snapshots = 2.0 + events_of(scene).snapshots.count(scene.numerics.end_time);
   return kPerRow * steps + snapshots * (kPerSnapshot + kPerPoint * 2.0 * order * order);
 }
 
-/// Rows of falling tolerances, of which the trial run has the first.
+/// Rows for falling tolerances; the trial run has the first of them.
 std::vector<CostRow> predicted_rows(const Scene& scene, std::span<const double> tolerances, const TrialRun& trial,
                                     Deadline& deadline) {
   constexpr double kTimedSeconds = 0.1;  // for each degree
@@ -179,14 +178,14 @@ std::vector<CostRow> predicted_rows(const Scene& scene, std::span<const double> 
     return rows;
   }
   const double whole = trial.whole(scene.numerics.end_time);
-  // How cost grows with the degree; if no step can be timed at the first one, by power laws alone.
+  // Growth of the cost with the degree; if no step can be timed at the first one, only power laws are used.
   StepCost cost{trial.order, 1.0, static_cast<double>(peak_memory_bytes()), std::numeric_limits<double>::infinity()};
   const Scene timed = with_fixed_steps(scene, trial.times.empty() ? 0.0 : trial.times.front());
   if (tolerances.size() > 1) {
     if (const StepCost first = timed_steps(timed, trial.order, kTimedSeconds, deadline); first.order > 0) cost = first;
   }
   const double per_evaluation = trial.all_seconds / (1.0 + trial.evaluations + trial.snapshots) / cost.seconds;
-  // In the shipped scenes 2 to 5, and 4 to 8 where the trial run took the highest degree of its tolerance.
+  // Measured in the shipped scenes: 2 to 5, or 4 to 8 if the trial run took the highest degree of its tolerance.
   const double degrees_per_digit = trial.order < with_tolerance(scene, tolerances.front()).numerics.order ? 4.0 : 6.0;
   for (const double tolerance : tolerances) {
     const double ratio = tolerances.front() / tolerance;
@@ -213,7 +212,7 @@ void predict_from_fixed_steps(const Scene& scene, RunPlan& plan, const CostBudge
   const int own = scene.numerics.order;
   Deadline deadline(budget.seconds);
   StepCost cost;
-  // Lower degrees tell whether there is time for that of the scene.
+  // Steps of lower degrees show whether there is time for a step of the scene's degree.
   for (const int order : {8, 12, 16, 24, 32, 48}) {
     if (order < own) cost = step_cost(scene, order, cost, 0.0, deadline);
   }
@@ -242,7 +241,7 @@ std::vector<CostRow> cost_table_of(const Scene& scene, const std::vector<double>
                         std::back_inserter(rows));
       break;
     }
-    // The next tolerance may go on.
+    // A tighter tolerance may still succeed.
     rows.push_back({.tolerance = tolerance, .stops = trial.stops});
   }
   return rows;

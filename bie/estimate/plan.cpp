@@ -52,7 +52,7 @@ std::int64_t independent_coefficients(const Symmetry& symmetry, int order) {
   return (all + symmetry.group_order() - 1) / symmetry.group_order();
 }
 
-/// The model without its electric part where nothing ever charges a membrane: a run assembles and solves nothing of it.
+/// The model without its electric part if nothing ever charges a membrane: a run then assembles and solves none of it.
 Model without_idle_field(const Model& model, const Problem& problem) {
   Model result = model;
   const bool pumps = std::ranges::any_of(result.vesicles, [](const VesicleModel& v) { return v.pump.has_value(); });
@@ -62,7 +62,7 @@ Model without_idle_field(const Model& model, const Problem& problem) {
   return result;
 }
 
-/// How many vesicles need an operator; images of others need none.
+/// Number of vesicles that need an operator; images of others need none.
 std::size_t vesicles_with(const OperatorFlag& op, const Model& model, const Exchange& exchange) {
   std::size_t count = 0;
   for (std::size_t a = 0; a < model.vesicles.size(); ++a) {
@@ -71,7 +71,7 @@ std::size_t vesicles_with(const OperatorFlag& op, const Model& model, const Exch
   return count;
 }
 
-/// Fields that the solves of a step find, of all vesicles but images.
+/// Number of fields that the solves of a step find, for all vesicles but images.
 std::size_t count_unknown_fields(const Model& model, const Exchange& exchange) {
   std::size_t count = 0;
   for (std::size_t a = 0; a < model.vesicles.size(); ++a) {
@@ -98,7 +98,7 @@ std::string difference_text(const Scene& scene, const Model& model, const Model&
   return parts.empty() ? "nothing but its own term" : fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// Of each way that layers between vesicles take, the targets at the start.
+/// Number of targets at the start for each way of evaluating layers between vesicles.
 std::map<std::string, std::uint64_t> pair_targets_of(const Problem& problem, const MembraneSpace& space) {
   const std::optional<Wall>& wall = problem.model.wall;
   if (problem.start.size() < 2 && !wall) return {};
@@ -106,7 +106,7 @@ std::map<std::string, std::uint64_t> pair_targets_of(const Problem& problem, con
   for (const StartMembrane& start : problem.start) {
     positions.push_back(resize_order(start.position, problem.settings.order));
   }
-  // Without layers the targets are sorted and no more.
+  // Without layers the targets are only classified.
   std::vector<InteractingMembrane> membranes;
   for (const Matrix& position : positions) {
     membranes.push_back({position, space.targets(), {}, space.subspace().symmetry()});
@@ -119,7 +119,7 @@ std::map<std::string, std::uint64_t> pair_targets_of(const Problem& problem, con
   return instruments.pair_targets();
 }
 
-/// Of all vesicles, each once.
+/// Distinct acting waveforms of all vesicles.
 std::vector<Waveform> waveforms_of(const Scene& scene) {
   std::vector<Waveform> result;
   for (const Scene& one : each_alone(scene)) {
@@ -131,8 +131,8 @@ std::vector<Waveform> waveforms_of(const Scene& scene) {
   return result;
 }
 
-/// At least how many times steps must end before the end of the run: at jumps of the acting waveforms and, with fixed
-/// steps, at snapshots.
+/// Lower bound on the number of times at which steps must end before the end of the run: jumps of the acting waveforms
+/// and, with fixed steps, snapshots.
 double fewest_events(const Scene& scene) {
   const double end = scene.numerics.end_time;
   double count = scene.numerics.tolerance ? 0.0 : events_of(scene).snapshots.count(end);
@@ -144,9 +144,9 @@ double fewest_events(const Scene& scene) {
   return count;
 }
 
-/// Counts steps, if they are fixed, and jumps.
+/// Counts jumps and fixed steps.
 void count_steps(const Scene& scene, RunPlan& plan) {
-  // Beyond that events are not walked through, which takes too long: each is then a jump and takes a step of its own.
+  // More events take too long to enumerate: each then counts as a jump and as one step.
   constexpr double kMostEvents = 1e6;
   const double end = scene.numerics.end_time;
   const bool fixed = !scene.numerics.tolerance;

@@ -15,7 +15,7 @@ namespace vehd {
 struct PlannedEffect {
   std::string name;
   std::string adds;       ///< the term of the model
-  std::string if_absent;  ///< saved without it
+  std::string if_absent;  ///< savings without it
 };
 
 /// One operator of a plan, with the reason.
@@ -30,25 +30,25 @@ struct RunPlan {
   std::vector<PlannedEffect> effects;
   std::vector<std::string> absent;
   std::vector<DimensionlessGroup> groups;  ///< without times
-  std::vector<std::string> si_of_groups;   ///< their values with units; empty of pure numbers and without a scale
+  std::vector<std::string> si_of_groups;   ///< SI values; empty for pure numbers and without a scale
   std::vector<RunTime> times;
   std::vector<ModelWarning> warnings;  ///< where the scene leaves the range of the model, by estimates for a sphere
   std::string symmetry;
   std::vector<PlannedOperator> operators;
-  std::uint64_t kernel_evaluations = 0;               ///< of each operator of a vesicle at each new shape
-  std::vector<std::string> vesicles;                  ///< names of several
-  std::map<std::string, std::uint64_t> pair_targets;  ///< of several at the start, as in summary.json
+  std::uint64_t kernel_evaluations = 0;               ///< per operator, vesicle and new shape
+  std::vector<std::string> vesicles;                  ///< names; empty for a single vesicle
+  std::map<std::string, std::uint64_t> pair_targets;  ///< of layers between membranes at the start, as in summary.json
   int shapes_per_step = 1;
-  std::int64_t n_jumps = 0;   ///< of the forcing, up to the end: at each the shape is evaluated once more
+  std::int64_t n_jumps = 0;   ///< of the forcing, up to the end; each needs one more evaluation of the shape
   std::int64_t unknowns = 0;  ///< independent scalars that the solves of a step find
-  std::int64_t n_steps = 0;   ///< if none is rejected; with a tolerance known after predict_cost
+  std::int64_t n_steps = 0;   ///< without rejections; with a tolerance set by predict_cost
   double seconds_per_step = 0.0;
   std::int64_t memory_bytes = 0;
   std::string stops;    ///< why the steps of the run cannot be taken, and when; nothing is predicted then
   std::string unknown;  ///< why no cost is predicted although nothing stops; empty otherwise
 };
 
-/// Everything that follows from the scene alone; costs are left at zero.
+/// Everything that follows from the scene without a trial run; costs are left at zero.
 RunPlan plan_of(const Scene& scene);
 
 }  // namespace vehd

@@ -12,7 +12,7 @@
 namespace vehd {
 namespace {
 
-/// What steps of one cost have in common.
+/// A text that is equal for scenes whose steps cost the same.
 std::string cost_class(const Scene& scene, const RunPlan& plan) {
   std::string text = fmt::format("{} {} {} {} {}", plan.unknowns, plan.symmetry, plan.shapes_per_step,
                                  plan.kernel_evaluations, scene.numerics.tolerance.value_or(0.0));
@@ -20,7 +20,7 @@ std::string cost_class(const Scene& scene, const RunPlan& plan) {
   return text;
 }
 
-/// A plan with its cost.
+/// A plan with its predicted cost, and the end time of its scene.
 struct CostedPlan {
   RunPlan plan;
   double end_time = 0.0;

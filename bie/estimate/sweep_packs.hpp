@@ -9,24 +9,24 @@ namespace vehd {
 
 /// Predicted cost of the runs of a sweep.
 struct SweepCost {
-  std::vector<double> seconds;    ///< of each run, 0 of a scene that is refused
-  std::int64_t memory_bytes = 0;  ///< most that one of them needs; 0 where that of none is known
+  std::vector<double> seconds;    ///< of each run; 0 if its scene is refused
+  std::int64_t memory_bytes = 0;  ///< largest need of a run; 0 if unknown for all
 };
 
-/// Runs that need as many unknowns, operators and shapes a step have steps of one cost, which is measured on the first
-/// of them (predict_cost); a tolerance is taken to need as many steps in the same time as there. Runs whose trial stops
-/// count as an average run.
+/// Runs with equal symmetry, tolerance, unknowns, operators and shapes per step have one cost per step, which
+/// predict_cost measures on the first of them. With a tolerance they are assumed to take equally many steps per unit of
+/// time. A run whose trial stops counts as an average run.
 SweepCost predicted_cost(const std::vector<SweepRun>& runs);
 
-/// Runs that belong together, longest first.
+/// Indices of the runs of one pack, longest first.
 using SweepPack = std::vector<std::size_t>;
 
-/// Shares runs out so that the packs take about as long: each run, the longest first, goes to the pack that has least.
+/// Distributes runs over packs of similar duration: each run, longest first, goes to the pack with the smallest load.
 /// @param n_packs  at least 1; packs without a run are left out
 std::vector<SweepPack> packs_of(const std::vector<double>& seconds, std::size_t n_packs);
 
-/// Fewest packs of which each is predicted to be done in that time, with room for a prediction that is too low by a
-/// half; one for each run at most.
+/// Fewest packs that are each predicted to finish within the limit, with a margin of a factor 1.5 for low predictions;
+/// at most one for each run.
 std::size_t packs_within(const std::vector<double>& seconds, double limit_seconds);
 
 }  // namespace vehd

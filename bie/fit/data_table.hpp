@@ -8,8 +8,8 @@
 
 namespace vehd {
 
-/// A file of measured numbers: CSV whose header names each column and its unit, "time [ms]", as files of vehd do. Empty
-/// lines and those that begin with # are left out.
+/// Measured data in CSV: the header names each column and its unit, "time [ms]", as in files of vehd. Empty lines and
+/// lines that begin with # are skipped.
 class DataTable {
  public:
   /// @throws InputError "file:line: ..." if it cannot be read or a row has more or fewer cells than the header
@@ -20,9 +20,9 @@ class DataTable {
   [[nodiscard]] const std::string& name(std::size_t column) const { return names_[column]; }
   /// Unit of a column as written; empty if it has none.
   [[nodiscard]] const std::string& unit(std::size_t column) const { return units_[column]; }
-  /// Number of the column of that name; nullopt if there is none.
+  /// Index of the column of that name; nullopt if there is none.
   [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
-  /// Column of that name, see find.
+  /// Index of the column of that name.
   /// @throws InputError that names the nearest column
   [[nodiscard]] std::size_t column(const std::string& name) const;
   /// A cell as it is written, without blanks around it.

@@ -93,7 +93,7 @@ double unit_factor(const Scene& scene, const std::string& dimension, const std::
   if (const Unit* found = known.find(quantity ? quantity->unit : unit); found != nullptr && !unit.empty()) {
     return found->times / found->over;
   }
-  // Results have prefixes that no value of a scene has.
+  // Units of results have prefixes that values of a scene do not accept.
   const OutputUnit result = OutputUnits(scene.units, {{dimension, unit}}).of(dimension);
   if (result.is_si()) return si_scale(scene.units, dimension) / result.factor;
   throw InputError(fmt::format("{}: has {} for a {}; accepted: {}", place,

@@ -16,7 +16,7 @@ struct FitResult {
   Minimum minimum;
   Statistics statistics;
   std::vector<double> values;  ///< of the keys, each in its unit
-  /// Of the runs with these values, one list for each experiment.
+  /// Verdicts of the runs with these values, one list for each experiment.
   std::vector<std::vector<std::string>> verdicts;
 
   /// Settings "table.key=value" of these values.
@@ -26,10 +26,10 @@ struct FitResult {
 /// Data, deviations, intervals and start of a fit; the model is left to the caller.
 LeastSquares least_squares_of(const FitFile& fit);
 
-/// Fits the free keys of all experiments together; runs are the model.
+/// Fits the free keys of all experiments together, with runs as the model.
 /// @param tell  called after each evaluation of the model, with χ² so far; may be empty
-/// @throws InputError if the model has no value at the start or beside a point
-/// @throws Interrupted if a signal came; finished runs are kept. OutputError
+/// @throws InputError if the model has no value at the start or on either side of a point
+/// @throws Interrupted on a signal (finished runs are kept), OutputError
 FitResult fit_keys(const FitFile& fit, const ModelRuns& runs,
                    std::function<void(int n_evaluations, double chi2)> tell = {});
 

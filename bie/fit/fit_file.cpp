@@ -23,7 +23,7 @@ void require_words(const TomlFile& file, const toml::table& table, const std::ve
   }
 }
 
-/// A text of a table, empty where it may be left out and is.
+/// Text of a key; empty if the key is optional and absent.
 std::string text_in(const TomlFile& file, const toml::table& table, const char* key, const char* accepted,
                     bool is_required) {
   const toml::node* node = table.get(key);
@@ -45,7 +45,7 @@ std::filesystem::path file_in(const TomlFile& file, const toml::table& table, co
   return path;
 }
 
-/// "0.01" of a number, which may also be a text with a unit.
+/// The deviation as text, "0.01" or "2 mV", given as a number or as a text with a unit.
 std::string deviation_in(const TomlFile& file, const toml::table& table) {
   const toml::node* node = table.get("deviation");
   if (node == nullptr) return "";
@@ -83,7 +83,7 @@ std::vector<Experiment> experiments_in(const TomlFile& file, const std::filesyst
   for (const toml::node& node : *tables) {
     experiments.push_back(experiment_in(file, *node.as_table(), folder));
     const std::string& name = experiments.back().name;
-    // They are parts of names of files.
+    // Names become parts of file names.
     const bool is_plain = name.find('/') == std::string::npos;
     const bool is_new = std::ranges::count(experiments, name, &Experiment::name) == 1;
     if (!is_plain || !is_new) {
@@ -150,7 +150,7 @@ class FreeKeyReader {
     return *quantity;
   }
 
-  /// The value of the scene where it is in the interval, or else the middle.
+  /// The value of the scene if it is inside the interval, otherwise the middle.
   [[nodiscard]] static double start_of(const FreeKey& key, const KeyDescription& description, const Scene& scene) {
     const double middle = key.is_logarithmic ? std::sqrt(key.from * key.to) : 0.5 * (key.from + key.to);
     const auto value = applies(description, scene) ? description.get(scene) : std::nullopt;
@@ -171,7 +171,7 @@ class FreeKeyReader {
   const TomlFile& file_;
 };
 
-/// A key may also stand without quotes, as a table within tables.
+/// A key may also be written without quotes, as nested tables.
 void add_keys(const toml::table& table, const std::string& prefix, const TomlFile& file, const Scene& scene,
               std::vector<FreeKey>& keys) {
   for (const auto& [word, node] : table) {
@@ -184,7 +184,7 @@ void add_keys(const toml::table& table, const std::string& prefix, const TomlFil
   }
 }
 
-/// The ends of its interval make scenes, beside the starts of the others.
+/// Checks that all experiments accept both ends of each key's interval, with the other keys at their start.
 void require_accepted(const std::vector<FreeKey>& keys, const std::vector<Experiment>& experiments) {
   for (const FreeKey& varied : keys) {
     for (const double number : {varied.from, varied.to}) {

@@ -9,15 +9,15 @@
 
 namespace vehd {
 
-/// A fit as its file gives it.
+/// Contents of a fit file.
 struct FitFile {
   std::filesystem::path file;
   std::vector<FreeKey> keys;
   std::vector<Experiment> experiments;
 };
 
-/// Reads and validates a fit (docs/fit.md), the scenes and the data of its experiments. The ends of each key's interval
-/// are values that all scenes accept.
+/// Reads and validates a fit (docs/fit.md) with the scenes and data of its experiments. All scenes must accept both
+/// ends of each key's interval.
 /// @throws InputError "file:line: what is wrong, the value, what is accepted"
 FitFile read_fit(const std::filesystem::path& path);
 /// read_fit for text in memory.

@@ -21,14 +21,14 @@ nlohmann::json number_or_null(double number) {
   return std::isfinite(number) ? nlohmann::json(number) : nlohmann::json(nullptr);
 }
 
-/// Ends of the interval of so many standard errors, which are even in the coordinate.
+/// Ends of the interval of ±`times` standard errors, symmetric in the coordinate.
 nlohmann::json interval(const FreeKey& key, double number, double error, double times) {
   if (!std::isfinite(error)) return nullptr;
   const double p = key.coordinate_of(number);
   return {key.number_of(p - times * error), key.number_of(p + times * error)};
 }
 
-/// Keys with a share in a combination, greatest first.
+/// Keys that contribute to a combination, largest first.
 std::vector<std::size_t> keys_of(const Combination& combination) {
   constexpr double least_share = 0.05;
   std::vector<std::size_t> keys;
@@ -48,7 +48,7 @@ std::filesystem::path FitPaths::best(const FitFile& fit, const Experiment& exper
 
 std::string text_of(const FitFile& fit, const Combination& combination) {
   const std::vector<std::size_t> keys = keys_of(combination);
-  // The first one upwards.
+  // The sign makes the first key increase.
   const double sign = combination.direction[static_cast<Index>(keys.front())] < 0.0 ? -1.0 : 1.0;
   std::vector<std::string> names;
   for (const std::size_t k : keys) {

@@ -9,14 +9,14 @@
 /// The files of a fit.
 namespace vehd {
 
-/// Files of a fit.
+/// Paths of the files of a fit.
 struct FitPaths {
   std::filesystem::path directory;
 
   [[nodiscard]] std::filesystem::path json() const { return directory / "fit.json"; }
   [[nodiscard]] std::filesystem::path table() const { return directory / "fit.csv"; }
   [[nodiscard]] std::filesystem::path picture() const { return directory / "fit.png"; }
-  /// The scene of the best fit: best.toml, or best_NAME.toml of one of several experiments.
+  /// Scene of the best fit: best.toml, or best_NAME.toml if there are several experiments.
   [[nodiscard]] std::filesystem::path best(const FitFile& fit, const Experiment& experiment) const;
 };
 
@@ -28,10 +28,10 @@ nlohmann::json json_of(const FitFile& fit, const FitResult& result);
 /// difference of datum and model in deviations. Numbers are in the units of the data.
 std::string fit_table(const FitFile& fit, const FitResult& result);
 
-/// The scene of an experiment with the values that fit best, every default spelled out.
+/// Scene of an experiment with the best-fitting values and every default spelled out.
 std::string best_scene(const FitFile& fit, const FitResult& result, const Experiment& experiment);
 
-/// A combination in words: "membrane.bending_modulus and fluid.viscosity together, by factors 1.42 and 1.42".
+/// A combination in words: "membrane.bending_modulus × 1.42, fluid.viscosity × 1.42".
 std::string text_of(const FitFile& fit, const Combination& combination);
 
 /// Writes fit.json, fit.csv and the scenes.

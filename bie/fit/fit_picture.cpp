@@ -37,7 +37,7 @@ SweepAxis abscissa_axis(const Experiment& experiment) {
     least = std::min(least, number);
     most = std::max(most, number);
   }
-  // A key that goes through more than a decade.
+  // Logarithmic for a key that spans more than a decade.
   constexpr double decade = 10.0;
   return axis_of_values(measured.abscissa, values, !measured.is_against_time() && least > 0.0 && most > decade * least);
 }
@@ -54,7 +54,7 @@ void draw_data(Page& page, const Part& part, const Box& box) {
   const SweepAxis x = abscissa_axis(experiment),
                   y = axis_of_numbers(column_label(experiment.measured.header()), numbers);
   draw_sweep_frame(page, box, x, y, true);
-  // A line for each frame of a contour, one for all data otherwise.
+  // One line for each frame of a contour, otherwise one for all data.
   std::map<std::string, PageLine> lines;
   for (std::size_t i = 0; i < n; ++i) {
     page.lines.push_back(
@@ -74,7 +74,7 @@ void draw_data(Page& page, const Part& part, const Box& box) {
 
 void draw_residuals(Page& page, const Part& part, const Box& box) {
   std::vector<double> numbers(part.residuals.begin(), part.residuals.end());
-  // A standard deviation to either side is always seen.
+  // The axis always includes one standard deviation on either side.
   numbers.insert(numbers.end(), {-1.0, 0.0, 1.0});
   const SweepAxis x = abscissa_axis(part.experiment), y = axis_of_numbers("(data − model) / deviation", numbers);
   draw_sweep_frame(page, box, x, y, true);

@@ -5,8 +5,8 @@
 
 namespace vehd {
 
-/// Draws two panels for each experiment: the data with bars of one standard deviation and the model as a line, and
-/// beside it the differences in deviations. Contours stand at the values of their abscissa by their angle φ.
+/// Draws two panels for each experiment: the data with bars of one standard deviation and the model as a line; the
+/// residuals in standard deviations. Contours are drawn over their angle φ, with one line for each frame.
 /// @throws InputError if gnuplot is missing
 void draw_fit(const FitFile& fit, const FitResult& result, const PictureFile& picture);
 

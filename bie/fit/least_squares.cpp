@@ -13,12 +13,12 @@
 namespace vehd {
 namespace {
 
-/// By how many deviations a step of a difference is to change the model, and how long it may be.
+/// Steps of difference quotients: desired change of the model, in deviations, and limits of the step.
 constexpr double wanted_change = 3.0, shortest_step = 1e-3, longest_step = 0.1;
-/// By which a full step may still lower χ²: a tenth of a standard error, squared.
+/// Converged if a full step would lower χ² by less: a tenth of a standard error, squared.
 constexpr double converged_decrease = 0.01;
 
-/// The residuals over u − u(start), as MINPACK asks for them, and the differences that their derivatives are made of.
+/// Residuals and their difference quotients as functions of u − u(start), in the form that MINPACK requires.
 class Residuals {
  public:
   explicit Residuals(const LeastSquares& problem)
@@ -33,7 +33,7 @@ class Residuals {
 
   [[nodiscard]] Index values() const { return problem_.data.size(); }
 
-  /// @returns -1 where no evaluation is left, which ends the search
+  /// @returns -1 if no evaluation is left, which ends the search
   int operator()(const Vector& u, Vector& residuals) {
     const Vector p = p_of(u);
     if (p == here_.point) {
@@ -52,13 +52,13 @@ class Residuals {
     return 0;
   }
 
-  /// @returns -1 at the minimum
+  /// @returns -1 at the minimum or if no evaluation is left
   int df(const Vector& u, Matrix& derivatives) {
     move_to(p_of(u));
     const Vector& p = here_.point;
     const Vector slopes = (p - problem_.lower).cwiseProduct(problem_.upper - p).cwiseQuotient(width_);
     derivatives = -here_.jacobian * slopes.asDiagonal();
-    // What the data do not determine ends at the intervals: each counts as known to half its width.
+    // JᵀJ may be singular: each parameter counts as known to half the width of its interval.
     Matrix normal = here_.jacobian.transpose() * here_.jacobian;
     normal.diagonal() += (2.0 * width_.cwiseInverse()).cwiseAbs2();
     const Vector gradient = here_.jacobian.transpose() * here_.residuals;
@@ -66,7 +66,7 @@ class Residuals {
     return here_.converged || n_evaluations_ >= most_evaluations_ ? -1 : 0;
   }
 
-  /// Where the search has ended, with central differences.
+  /// The end of the search, with central differences.
   Minimum finish(const Vector& u, bool has_converged) {
     if (p_of(u) != here_.point) move_to(p_of(u));
     std::vector<Vector> points;
@@ -90,7 +90,7 @@ class Residuals {
 
  private:
   [[nodiscard]] Vector p_of(const Vector& u) const {
-    // The start exactly, which may be a rounded number.
+    // The formula below reproduces the start only up to rounding.
     if (u.isZero(0.0)) return problem_.start;
     const Vector ratio = (problem_.upper - problem_.start).cwiseQuotient(problem_.start - problem_.lower);
     return problem_.lower.array() + width_.array() / (1.0 + ratio.array() * (-u).array().exp());
@@ -122,7 +122,7 @@ class Residuals {
     return p[k] >= problem_.lower[k] && p[k] <= problem_.upper[k];
   }
 
-  /// Forward differences at a point that was just tried.
+  /// Moves to a point if it was just tried, and takes forward differences there.
   void move_to(const Vector& p) {
     if (trial_.point.size() > 0 && p == trial_.point) here_ = trial_;
     const Index n = p.size();
@@ -153,10 +153,10 @@ class Residuals {
   const LeastSquares& problem_;
   Vector width_;
   int most_evaluations_, n_evaluations_ = 0;
-  double least_ = std::numeric_limits<double>::infinity();  ///< χ² so far
+  double least_ = std::numeric_limits<double>::infinity();  ///< least χ² so far
   Vector steps_;                                            ///< of the next differences
   Minimum here_, trial_;
-  Matrix forward_;  ///< the model beside here_
+  Matrix forward_;  ///< the model at the neighbours of here_
 };
 
 }  // namespace
@@ -164,7 +164,7 @@ class Residuals {
 Minimum minimum_of(const LeastSquares& problem) {
   Residuals residuals(problem);
   Eigen::LevenbergMarquardt<Residuals> search(residuals);
-  // The first step changes u by 2 at most: a logistic function is nearly straight over that.
+  // The first step changes u by at most 2, over which a logistic function is nearly linear.
   search.useExternalScaling = true;
   search.diag = Vector::Ones(problem.start.size());
   search.parameters.factor = 2.0;

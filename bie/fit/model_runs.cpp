@@ -18,7 +18,7 @@
 namespace vehd {
 namespace {
 
-/// Snapshots and the end of a run at the times of its data, which are the only rows that are read.
+/// Sets snapshots and end of a run to the times of its data, because only these rows are read.
 void end_at_data(Scene& scene, const Experiment& experiment, const DataOfRun& of_run) {
   const double second = scene.units ? si_scale(scene.units, "time") : 1.0;
   for (const std::size_t i : of_run.data) scene.output.times.push_back(experiment.data[i].time / second);

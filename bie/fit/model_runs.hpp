@@ -19,26 +19,26 @@ namespace vehd {
 struct RunWork {
   std::filesystem::path directory;  ///< the runs are below it
   int n_workers = 1;                ///< processes at a time
-  int n_threads = 1;                ///< of each
-  /// Called often.
+  int n_threads = 1;                ///< of each process
+  /// Progress; called often.
   std::function<void(std::int64_t n_finished, std::int64_t n_runs, double share)> tell{};
 };
 
-/// The model of experiments: runs of their scenes, each in a directory named by its effective scene. Finished runs are
-/// not computed again and interrupted ones are continued.
+/// The model of experiments: runs of their scenes, each in a directory named by a hash of its effective scene. Finished
+/// runs are not computed again and interrupted ones are continued.
 class ModelRuns {
  public:
   /// Locks the directory until destruction.
-  /// @param experiments, interruption  must outlive it; the latter was made before the first parallel region
+  /// @param experiments, interruption  must outlive it; the latter must exist before the first parallel region
   /// @throws DirectoryBusy if another process holds the lock; OutputError
   ModelRuns(const std::vector<Experiment>& experiments, RunWork work, Interruption& interruption);
 
-  /// Predictions for several points at once; all their runs are computed side by side.
-  /// @param points  settings "table.key=value" of each
+  /// Predictions for several points at once; all their runs are computed in parallel.
+  /// @param points  settings "table.key=value" of each point
   /// @throws Interrupted, OutputError
   [[nodiscard]] std::vector<Prediction> predict(const std::vector<std::vector<std::string>>& points) const;
 
-  /// Verdicts of the runs of one experiment at a point that was predicted, each once.
+  /// Distinct verdicts of the runs of one experiment at a point that was predicted.
   [[nodiscard]] std::vector<std::string> verdicts(const Experiment& experiment,
                                                   const std::vector<std::string>& point) const;
 

@@ -5,14 +5,14 @@
 
 namespace vehd {
 
-/// Normally distributed numbers. A seed gives the same ones with every standard library: the generator is that of the
-/// standard, the rest is written here.
+/// Normally distributed numbers. A seed gives the same numbers with every standard library: the standard specifies the
+/// generator but not its normal distribution, which is computed here.
 /// Source: Box and Muller 1958
 class NormalNumbers {
  public:
   explicit NormalNumbers(std::uint64_t seed) : generator_(seed) {}
 
-  /// Of mean 0 and variance 1.
+  /// Next number, of mean 0 and variance 1.
   double operator()();
 
  private:

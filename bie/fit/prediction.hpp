@@ -7,7 +7,7 @@
 
 namespace vehd {
 
-/// The model's values for all data, experiment after experiment, [n_data]; absent if a run did not reach its end.
+/// Model values for all data, in the order of the experiments, [n_data]; absent if a run did not reach its end.
 struct Prediction {
   std::optional<Vector> values;
   std::string problem{};  ///< why they are absent

@@ -23,7 +23,7 @@ double scale_of(const Scene& scene, const std::string& dimension) {
   return scene.units ? si_scale(scene.units, dimension) : 1.0;
 }
 
-/// Row of a time; of two at a jump the one behind it.
+/// Row nearest to a time; at a jump the second of its two rows.
 std::size_t row_at(const std::vector<double>& times, double time) {
   std::size_t nearest = 0;
   for (std::size_t row = 1; row < times.size(); ++row) {
@@ -88,7 +88,7 @@ std::vector<double> values_of_run(const Experiment& experiment, const DataOfRun&
 std::vector<double> section_radii(const Matrix& position, const std::vector<double>& angles_deg) {
   const int order = order_of(position.rows());
   const SphereTransform transform(order, make_grid(2 * order));
-  // About the mean of x, as values_at_poles has it.
+  // Relative to the mean of x, as values_at_poles requires.
   Matrix x = position;
   x.row(0).setZero();
   const Vector3 centre = centroid(make_surface(transform, x));

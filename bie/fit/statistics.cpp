@@ -9,7 +9,7 @@
 namespace vehd {
 namespace {
 
-/// How far p can go along ±v within the intervals.
+/// Largest distance, up to 0.5, that p can move along both v and −v within the intervals.
 double room_along(const LeastSquares& problem, const Vector& p, const Vector& v) {
   constexpr double longest = 0.5;
   double room = longest;
@@ -20,7 +20,7 @@ double room_along(const LeastSquares& problem, const Vector& p, const Vector& v)
   return room;
 }
 
-/// Half the change of the model from p − step to p + step, in deviations; 0 where it has no value.
+/// Half the change of the model from p − step to p + step, in deviations; 0 if it has no value.
 Vector change_along(const LeastSquares& problem, Minimum& minimum, const Vector& step) {
   const std::vector<Prediction> ends = problem.model({minimum.point + step, minimum.point - step});
   minimum.n_evaluations += 2;
@@ -28,7 +28,7 @@ Vector change_along(const LeastSquares& problem, Minimum& minimum, const Vector&
   return (*ends[0].values - *ends[1].values).cwiseQuotient(2.0 * problem.deviations);
 }
 
-/// An orthonormal basis of all directions across these.
+/// Orthonormal basis of the directions orthogonal to these.
 Matrix complement_of(const std::vector<Combination>& combinations, Index n) {
   if (combinations.empty()) return Matrix::Identity(n, n);
   Matrix directions(n, std::ssize(combinations));
@@ -49,7 +49,7 @@ std::vector<Combination> undetermined_combinations(const LeastSquares& problem, 
     Vector change = change_along(problem, minimum, room * v) / room;
     double change_error = error / room;
     if (change.norm() > change_error) {
-      // It may be the curvature of a line of equal models: without that.
+      // The change may come from the curvature of a line of equal models: Richardson removes that.
       change = (8.0 * change_along(problem, minimum, 0.5 * room * v) / room - change) / 3.0;
       change_error *= std::hypot(8.0, 1.0) / 3.0;
     }

@@ -13,7 +13,7 @@ struct Combination {
   double least_error = 0.0;  ///< its standard error is at least this
 };
 
-/// Errors and correlations of parameters, by the linearised model.
+/// Errors and correlations of parameters, from the linearised model.
 struct Statistics {
   Matrix covariance;   ///< (JᵀJ)⁻¹ in the space of the determined combinations, [n_parameters x n_parameters]
   Vector errors;       ///< standard errors, [n_parameters]; infinite for a parameter that is not determined
@@ -22,18 +22,18 @@ struct Statistics {
 };
 
 /// Finds undetermined combinations. A run has an error of η deviations (`run_error`), so central differences with the
-/// steps h_k change |Jv| along a unit vector v by up to η √(N Σ (v_k/h_k)²/2). An eigenvector v of JᵀJ whose |Jv| is
-/// below that is differentiated once more, along itself and with a step H as long as the intervals allow, 0.5 at most,
-/// and if that finds a change, with H/2 as well (Richardson). It is undetermined if |Jv| is then below the error of
-/// this difference, η √(N/2)/H or 2.7 times that. Its standard error 1/|Jv| is thus at least 0.37 √(2/N) H/η: 0.5, for
-/// data that have run_error_in_deviations.
+/// steps h_k change |Jv| along a unit vector v by up to η √(N Σ (v_k/h_k)²/2). An eigenvector v of JᵀJ with |Jv| below
+/// that is differentiated again, along v, with a step H as long as the intervals allow, at most 0.5. If this finds a
+/// change, H/2 is used as well (Richardson). v is undetermined if |Jv| is then below η √(N/2)/H, the error of this
+/// difference, or 2.7 times that. Its standard error 1/|Jv| is thus at least 0.37 √(2/N) H/η: 0.5 for H = 0.5 and a
+/// `run_error` of run_error_in_deviations.
 /// @param minimum  its jacobian is improved in these directions
 std::vector<Combination> undetermined_combinations(const LeastSquares& problem, Minimum& minimum);
 
 /// Covariance, errors and correlations. A parameter is not determined if an undetermined combination, moved by its
 /// least error, moves it by more than its standard error from the other combinations.
 /// @param jacobian  J = ∂m_i/∂p_k / s_i, [n_data x n_parameters]
-/// Accuracy: rounding, of a linear model (tests/fit/statistics_test.cpp)
+/// Accuracy: rounding, for a linear model (tests/fit/statistics_test.cpp)
 Statistics statistics_of(const Matrix& jacobian, std::vector<Combination> undetermined);
 
 }  // namespace vehd

@@ -30,7 +30,7 @@ double given_size(const Experiment& experiment, const std::string& text, const s
          unit_factor(experiment.scene, experiment.measured.dimension, quantity->unit, option + " " + text);
 }
 
-/// The snapshots of a scene, in its unit of time.
+/// Times of the snapshots of a scene, in its output unit of time.
 std::vector<std::string> times_of(const Scene& scene) {
   const double end = scene.numerics.end_time;
   std::vector<double> times = events_of(scene).snapshots.between(0.0, end);

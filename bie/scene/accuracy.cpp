@@ -10,8 +10,8 @@
 namespace vehd {
 
 int default_order(double tolerance) {
-  // Harmonics of a membrane gain a digit every eight degrees or fewer; the degree that a state needs is found on the
-  // way.
+  // Harmonics of a membrane gain a digit every eight degrees or fewer; the run itself finds the degree that a state
+  // needs.
   constexpr double kDegreesPerDigit = 8.0;
   return std::min(highest_order, static_cast<int>(std::ceil(kDegreesPerDigit * (1.0 - std::log10(tolerance)))));
 }

@@ -4,14 +4,14 @@
 
 namespace vehd {
 
-/// Highest degree of a run with a tolerance where the scene names none. Its steps have the highest time order.
+/// Default of the highest degree of a run with a tolerance. The steps of such a run have the highest time order.
 /// @param tolerance  > 0, relative
-/// Accuracy: chosen so that runs deliver the tolerance (docs/digits.md; tests/stepping/adaptive_evolution_test.cpp
-/// holds three times it)
+/// Accuracy: chosen so that runs reach the tolerance (docs/digits.md); tests/stepping/adaptive_evolution_test.cpp
+/// requires errors below three times the tolerance
 int default_order(double tolerance);
 
-/// The scene at a tolerance: degree and time order are those of the tolerance. A dt stays where it bounds the steps of
-/// a tolerance; where it was the accuracy of the scene it is dropped.
+/// The scene at another tolerance, which sets degree and time order. A dt that bounds the steps of a tolerance is kept;
+/// one that sets fixed steps is dropped.
 Scene at_tolerance(Scene scene, double tolerance);
 
 }  // namespace vehd

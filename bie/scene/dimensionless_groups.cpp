@@ -88,7 +88,7 @@ class Groups {
     if (electric.permittivity_ratio != 1.0) {
       number("permittivity ratio", "S", electric.permittivity_ratio, "ε_i/ε_e");
     }
-    // Without units the permittivity is that of the stress alone, as in the paper, whatever the conductivities.
+    // Without units the permittivity only scales the stress, as in the paper, independently of the conductivities.
     if (scene_.units || electric.displacement_current) {
       time("Maxwell–Wagner time", "t_MW",
            electric.permittivity * (electric.permittivity_ratio + 2.0) / (inside + 2.0 * outside),
@@ -116,7 +116,7 @@ class Groups {
     }
   }
 
-  /// √(2E:E) of the rate of strain E: the rate of a shear; of a Poiseuille flow at the distance a from its axis.
+  /// √(2E:E) of the rate of strain E: the rate of a shear; for a Poiseuille flow at the distance a from its axis.
   [[nodiscard]] double shear_rate() const {
     if (!scene_.flow) return 0.0;
     const FlowScene& flow = *scene_.flow;
@@ -126,7 +126,7 @@ class Groups {
     const Matrix3& gradient = model_.flow->gradient;
     return std::sqrt(0.5) * (gradient + gradient.transpose()).norm();
   }
-  /// Per volume.
+  /// Weight per volume.
   [[nodiscard]] double weight() const {
     return std::abs(scene_.fluid.density_difference) * vector_of(scene_.gravity->acceleration).norm();
   }

@@ -17,7 +17,7 @@ namespace vehd {
 
 namespace {
 
-/// Number of the vesicle in "vesicle[1].shape.axes", the rest behind it; nothing of another name.
+/// Parts of "vesicle[1].shape.axes": the number of the vesicle and "shape.axes"; nullopt for other names.
 std::optional<std::pair<std::size_t, std::string>> parts_of_name(const std::string& name) {
   constexpr std::string_view start = "vesicle[";
   const std::size_t end = name.find("].");
@@ -86,7 +86,7 @@ std::string key_place(const SceneSource& source, const std::string& name) {
     const auto node = table.at_path(fmt::format("{}.{}", key->table, key->other_name));
     if (node) return place(*node.node(), file);
   }
-  // Its own value of a vesicle, that of all, its own table, in this order.
+  // In this order: the value of the vesicle, the value for all vesicles, the table of the vesicle.
   if (vesicle && !table.at_path(name)) {
     if (const auto node = table.at_path(plain)) return place(*node.node(), file);
   }

@@ -11,11 +11,11 @@
 /// Single keys of a scene by their full name, "table.key".
 namespace vehd {
 
-/// Value of a key as TOML; empty where the scene has none.
+/// Value of a key as TOML; empty if the scene has none.
 std::string key_text(const Scene& scene, const std::string& name);
 
-/// All rows of a key: one for each kind that has another.
-/// @param where  it stands at `place`, "[vary]"
+/// All rows of a key; different kinds of its table may have different rows.
+/// @param where  table at `place` that has the name, for messages: "[vary]"
 /// @throws InputError "place: ..." with the nearest name if scenes have no such key
 std::vector<const KeyDescription*> keys_named(const std::string& name, const std::string& place,
                                               std::string_view where);
@@ -23,8 +23,8 @@ std::vector<const KeyDescription*> keys_named(const std::string& name, const std
 /// Whether a scene file has a key or table. @throws InputError if the file cannot be read
 bool is_given(const SceneSource& source, const std::string& name);
 
-/// "file:line" of a key in a scene file that can be read: of its table where the key is left out, of the first line
-/// where the table is; the option --set that gives the key. @throws InputError if the file cannot be read any more
+/// "file:line" of a key in a valid scene file: of its table if the key is left out, of the first line if the table is
+/// left out too; the option --set if that gives the key. @throws InputError if the file can no longer be read
 std::string key_place(const SceneSource& source, const std::string& name);
 
 }  // namespace vehd

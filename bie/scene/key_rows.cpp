@@ -73,7 +73,7 @@ void add_shape(auto& scene) {
   shape.key("centre", &ShapeScene::centre, {"", "length", "where the shape's origin is placed, after rotation"});
 }
 
-/// @param waveform  the table, of which only some kinds have an average
+/// Adds the keys of a waveform. @return the table of the alternating kinds, to which the caller may add keys
 auto add_waveform(auto waveform) {
   waveform.word("kind", &WaveformScene::kind, {"dc", "ac", "burst", "pulse", "pulse_train", "table"},
                 "constant; cos(2πft + phase); that during [start, start + duration); 1 during [start, start + "
@@ -97,7 +97,7 @@ auto add_waveform(auto waveform) {
   return ac;
 }
 
-/// Keys of a table that says how a property differs from place to place.
+/// Adds the keys of a table for a spatially varying property.
 auto add_places(auto places) {
   places.word(
       "kind", &PlaceScene::kind, {"harmonics", "cap", "file"},

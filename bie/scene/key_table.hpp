@@ -9,7 +9,7 @@
 /// and setter follow from the member.
 namespace vehd {
 
-/// How a member is stored in a Value.
+/// Type in which a member is stored in a Value.
 template <typename Member>
 struct StoredAs {
   using Type = Member;
@@ -21,13 +21,13 @@ struct StoredAs<int> {
 template <typename Contained>
 struct StoredAs<std::optional<Contained>> : StoredAs<Contained> {};
 
-/// In the order in which tables and keys are read and written.
+/// Rows in the order in which tables and keys are read and written.
 struct SchemaRows {
   std::vector<TableDescription> tables;
   std::vector<KeyDescription> keys;
 };
 
-/// Words of a row.
+/// Texts of a row.
 struct RowText {
   std::string_view symbol, unit, description;
   bool is_required = false;
@@ -48,7 +48,7 @@ class KeyTable {
     return KeyTable<decltype(part)>(*rows_, rows_->tables.back(), part);
   }
 
-  /// One that makes the difference whether a scene has an effect; its owner comes with it.
+  /// A table whose presence switches an effect on; creating it creates its owner as well.
   template <typename Owner, typename Member>
   auto optional(std::string_view name, std::optional<Member> Owner::*member, std::string_view description) {
     const auto holder = [ owner = part_, member ](auto& scene) -> auto& { return owner(scene).*member; };
@@ -64,7 +64,7 @@ class KeyTable {
     return KeyTable<decltype(part)>(*rows_, rows_->tables.back(), part);
   }
 
-  /// For keys of some of its kinds alone.
+  /// The table restricted to some of its kinds: keys added to it belong to these kinds only.
   template <typename... Kinds>
   [[nodiscard]] KeyTable of(Kinds... kinds) const {
     KeyTable result = *this;
@@ -72,7 +72,7 @@ class KeyTable {
     return result;
   }
 
-  /// A key of any value.
+  /// Adds a key that accepts any value.
   template <typename Owner, typename Member>
   KeyDescription& key(std::string_view name, Member Owner::*member, const RowText& text) {
     return key(name, member, Range{}, text);

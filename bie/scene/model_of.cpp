@@ -14,7 +14,7 @@
 namespace vehd {
 namespace {
 
-/// 1 at all times where the table is absent.
+/// Waveform of a table; 1 at all times if the table is absent or has no effect.
 Waveform waveform_in(const Scene& scene, std::string_view table) {
   const std::vector<ActingWaveform> acting = acting_waveforms(scene);
   const auto found = std::ranges::find(acting, table, &ActingWaveform::table);
@@ -47,7 +47,7 @@ void add_poration(const Scene& scene, VesicleModel& vesicle) {
   }
 }
 
-/// @param scene  of this vesicle alone
+/// @param scene  of this vesicle only
 VesicleModel vesicle_of(const Scene& scene) {
   const MembraneScene& m = scene.membrane;
   VesicleModel vesicle;
@@ -78,7 +78,7 @@ VesicleModel vesicle_of(const Scene& scene) {
   return vesicle;
 }
 
-/// An eighth of the shortest period of whatever alternates.
+/// An eighth of the shortest period of all alternating waveforms.
 double longest_step_in_a_period(const Scene& scene) {
   double result = std::numeric_limits<double>::infinity();
   for (const Scene& one : each_alone(scene)) {
@@ -115,7 +115,7 @@ Model model_of(const Scene& scene) {
                       scene.wall->field};
   }
   if (const auto& electric = scene.electric) {
-    // Without a field, and until there is a V_m, the electric part of a step is inactive.
+    // With a zero field the electric part of a step is inactive until there is a V_m.
     const bool is_zero = electric->field == Triple{};
     const Waveform waveform = is_zero ? Waveform::alternating(0.0, 1.0, 0.0) : waveform_in(scene, "electric.waveform");
     model.electric = AppliedField{vector_of(electric->field), electric->conductivity_out, electric->permittivity,
@@ -128,8 +128,8 @@ Model model_of(const Scene& scene) {
 StepControl step_control_of(const Scene& scene) {
   const NumericsScene& numerics = scene.numerics;
   if (!numerics.tolerance) return fixed_steps(*numerics.dt);
-  // Smaller steps would not change the time at the end. A membrane that charges within nanoseconds may be followed for
-  // hours.
+  // Smaller steps would be lost in the rounding of the end time. A membrane that charges within nanoseconds may be
+  // simulated for hours.
   constexpr double kSmallestFraction = 1e-15;
   const double longest = std::max(numerics.end_time, std::numeric_limits<double>::min());
   return {std::min({numerics.dt.value_or(longest), longest, longest_step_in_a_period(scene)}),
@@ -141,7 +141,7 @@ NumericalSettings settings_of(const Scene& scene) {
   settings.order = scene.numerics.order;
   settings.time_order = scene.numerics.time_order;
   if (const std::optional<double> tolerance = scene.numerics.tolerance) {
-    // Far enough below what is asked for that solvers cost no digit, and no further.
+    // Solver errors stay well below the tolerance; tighter solves would only cost time.
     settings.flow_tolerance = std::clamp(1e-3 * *tolerance, 1e-11, 1e-6);
     settings.electric_tolerance = std::clamp(1e-3 * *tolerance, 1e-12, 1e-7);
     settings.quadrature_tolerance = 0.1 * *tolerance;

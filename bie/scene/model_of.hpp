@@ -7,13 +7,13 @@
 
 namespace vehd {
 
-/// The effects that the scene calls for, in laboratory coordinates.
+/// Model with the effects of the scene, in laboratory coordinates.
 Model model_of(const Scene& scene);
 
-/// The numerical settings that [numerics] asks for; the rest are the defaults.
+/// Numerical settings from [numerics]; the others keep their defaults.
 NumericalSettings settings_of(const Scene& scene);
 
-/// Fixed steps, or those that a tolerance rules.
+/// Fixed steps, or steps that a tolerance controls.
 StepControl step_control_of(const Scene& scene);
 
 }  // namespace vehd

@@ -18,16 +18,16 @@
 namespace vehd {
 namespace {
 
-/// What the model leaves out may be this share of what it has.
+/// Largest accepted ratio of a neglected effect to a modelled one.
 constexpr double largest_share = 0.1;
-/// V; pores open near 1 V: Riske and Dimova 2005, DeBruin and Krassowska 1999.
+/// In V; pores open near 1 V: Riske and Dimova 2005, DeBruin and Krassowska 1999.
 constexpr double poration_potential = 1.0;
-/// N/m; membranes tear between 5 and 10 mN/m: Riske and Dimova 2005.
+/// In N/m; membranes tear between 5 and 10 mN/m: Riske and Dimova 2005.
 constexpr double lysis_tension = 5e-3;
-/// K; the viscosity of water falls by 2 % in that.
+/// In K; the viscosity of water falls by 2 % per kelvin.
 constexpr double most_heating = 1.0;
 
-/// Of water near 298 K: kg/m³, J/(m³ K), and of small ions in it m²/s.
+/// Water near 298 K, in kg/m³ and J/(m³ K), and small ions in it, in m²/s.
 constexpr double density = 1e3, heat_capacity = 4.18e6, diffusivity = 2e-9;
 constexpr double room_temperature = 298.0;
 
@@ -38,7 +38,7 @@ double largest_factor(const WaveformScene& waveform) {
   return most;
 }
 
-/// In which the field changes: 1/ω, a pulse, the shortest interval of a table.
+/// Shortest time in which the field changes: 1/ω, the duration of a pulse, the shortest interval of a table.
 double shortest_time(const WaveformScene& waveform) {
   if (alternates(waveform)) return 1.0 / (2.0 * std::numbers::pi * waveform.frequency);
   if (waveform.kind == WaveformKind::pulse || waveform.kind == WaveformKind::pulse_train) return waveform.duration;
@@ -50,7 +50,7 @@ double shortest_time(const WaveformScene& waveform) {
   return shortest;
 }
 
-/// ∫ factor² dt up to the end.
+/// ∫ factor² dt from 0 to the end.
 double exposure(const std::optional<WaveformScene>& waveform, double end) {
   if (!waveform || waveform->kind == WaveformKind::dc) return end;
   if (waveform->kind == WaveformKind::ac) return 0.5 * end;
@@ -67,7 +67,7 @@ double exposure(const std::optional<WaveformScene>& waveform, double end) {
   return sum + std::max(0.0, end - times.back()) * values.back() * values.back();
 }
 
-/// Judges one vesicle.
+/// Compares one vesicle with the limits of the model.
 class Judge {
  public:
   explicit Judge(const Scene& scene) : scene_(scene), groups_(dimensionless_groups(scene)) {
@@ -77,7 +77,7 @@ class Judge {
     field_ = unit_field_ * (waveform ? largest_factor(*waveform) : 1.0);
   }
 
-  /// Of a sphere: V_m = 3/2 E a once charged, and a tension that balances the stress of field and flow.
+  /// Estimates for a sphere: V_m = 3/2 E a once charged, and a tension that balances the stress of field and flow.
   [[nodiscard]] LargestValues expected() const {
     LargestValues result;
     result.mean_tension = scene_.fluid.viscosity * shear_rate() * radius();
@@ -124,7 +124,7 @@ class Judge {
     judge_inertia();
   }
 
-  /// Of a membrane that would show more area under this tension.
+  /// Warns if this tension would pull area out of thermal undulations, and about spheres.
   void judge_constant_area(double mean_tension) {
     const double excess = group("Δ");
     if (is_sphere(initial_position(scene_))) {
@@ -170,7 +170,7 @@ class Judge {
                           "\"displacement_current\" in [electric] is off",
                           ratio));
     }
-    // λ_D = √(εD/σ) on either side, a capacitance ε/λ_D in series with that of the membrane.
+    // Debye layers λ_D = √(εD/σ) on both sides: capacitances ε/λ_D in series with that of the membrane.
     double longest = 0.0, layers = 0.0;
     for (const auto& [conductivity, ratio] : {std::pair{electric.conductivity_in, electric.permittivity_ratio},
                                               std::pair{electric.conductivity_out, 1.0}}) {
@@ -192,7 +192,7 @@ class Judge {
             fmt::format("without cooling the current heats the fluid by {:.2g} K", heating));
   }
 
-  /// How far V_m comes, of what it has once charged.
+  /// Fraction of its fully charged value that V_m reaches.
   [[nodiscard]] double charged_share() const {
     const ElectricScene& electric = *scene_.electric;
     const double charging = group("t_m"), end = scene_.numerics.end_time;
@@ -206,22 +206,22 @@ class Judge {
     return std::isnan(charging) ? 0.0 : -std::expm1(-time / charging);
   }
 
-  /// Of this symbol; NaN where the scene has none.
+  /// Value of the group with this symbol; NaN if the scene has none.
   [[nodiscard]] double group(std::string_view symbol) const {
     const auto found = std::ranges::find(groups_, symbol, &DimensionlessGroup::symbol);
     return found == groups_.end() ? std::numeric_limits<double>::quiet_NaN() : found->value;
   }
   [[nodiscard]] double radius() const { return group("a"); }
   [[nodiscard]] double shear_rate() const { return std::fmax(0.0, 1.0 / group("t_γ")); }
-  /// NaN, which is beyond no limit, without a scale.
+  /// Value in SI units; NaN without a scale, which exceeds no limit.
   [[nodiscard]] double si(double value, std::string_view dimension) const {
     return value * si_scale(scene_.units, dimension);
   }
 
   const Scene& scene_;
   std::vector<DimensionlessGroup> groups_;
-  double unit_field_ = 0.0;  ///< where the waveform is 1
-  double field_ = 0.0;       ///< the largest
+  double unit_field_ = 0.0;  ///< magnitude where the waveform is 1
+  double field_ = 0.0;       ///< largest magnitude
   std::vector<ModelWarning> warnings_;
 };
 

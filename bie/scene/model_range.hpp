@@ -6,8 +6,8 @@
 
 #include "bie/scene/scene.hpp"
 
-/// Where a scene or its run leaves the range of the model. The verdict judges the numbers of a run; this judges the
-/// physics. Limits and their sources: docs/verdict.md.
+/// Checks whether a scene or its run leaves the range of the model. The verdict concerns the numerics of a run, these
+/// warnings its physics. Limits and their sources: docs/verdict.md.
 namespace vehd {
 
 /// One quantity beyond its limit, both in SI units or pure numbers.
@@ -24,9 +24,9 @@ struct LargestValues {
   double mean_tension = 0.0;  ///< ∫λ dA/A
 };
 
-/// Everything that leaves the range, each name once, by the vesicle that is farthest beyond it. What needs SI units is
-/// judged where the scene has them.
-/// @param reached  by the run; absent: estimated from a sphere of the same area
+/// All quantities beyond their limits, each once, for the vesicle that exceeds the limit most. Limits in SI units are
+/// checked only if the scene has [units].
+/// @param reached  values of the run; absent: estimated from a sphere of the same area
 /// @throws InputError if the shape file cannot be used
 std::vector<ModelWarning> model_warnings(const Scene& scene, const std::optional<LargestValues>& reached = {});
 

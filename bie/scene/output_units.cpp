@@ -15,21 +15,21 @@ namespace {
 
 struct Prefix {
   std::string_view symbol;
-  double times = 1.0;  ///< of the unit without it, as a ratio of two exact numbers
+  double times = 1.0;  ///< times/over is the factor of the prefix, a ratio of two exact numbers
   double over = 1.0;
 };
 constexpr std::array prefixes = {Prefix{"M", 1e6},     Prefix{"k", 1e3},    Prefix{""},           Prefix{"m", 1, 1e3},
                                  Prefix{"u", 1, 1e6},  Prefix{"n", 1, 1e9}, Prefix{"p", 1, 1e12}, Prefix{"f", 1, 1e15},
                                  Prefix{"a", 1, 1e18}, Prefix{"z", 1, 1e21}};
 
-/// Power of the prefix of a unit: 2 in um^2; 0 of one that takes none, as 1/s.
+/// Power of the prefix in a unit: 2 for um^2; 0 for a unit that takes none, such as 1/s.
 int prefix_power(std::string_view si_unit) {
   if (si_unit.starts_with('1')) return 0;
   if (si_unit == "m^2") return 2;
   return si_unit == "m^3" ? 3 : 1;
 }
 
-/// Symbol with the largest prefix of which there is at least one; that of rounding below one counts.
+/// Symbol with the largest prefix for which the number is at least one, up to rounding.
 std::string suitable_symbol(std::string_view si_unit, double magnitude) {
   const int power = prefix_power(si_unit);
   if (power == 0) return std::string(si_unit);
@@ -42,7 +42,7 @@ std::string suitable_symbol(std::string_view si_unit, double magnitude) {
   return fmt::format("{}{}", prefix.symbol, si_unit);
 }
 
-/// A number in SI base units as one in the unit of that symbol; NaN if it is not that unit with a prefix.
+/// Converts a number from SI base units to the unit of a symbol; NaN if that is not the SI unit with a prefix.
 double in_unit(double value, std::string_view si_unit, std::string_view symbol) {
   const int power = prefix_power(si_unit);
   for (const Prefix& prefix : prefixes) {
@@ -92,7 +92,7 @@ std::string quantity_text(const std::optional<UnitsScene>& units, double value, 
 
 std::string printed_unit(std::string_view symbol) {
   std::string text(symbol);
-  // No unit of results but the prefix begins so.
+  // In units of results only the prefix begins with u.
   if (text.starts_with('u')) text.replace(0, 1, "µ");
   for (const auto& [written, printed] : {std::pair{"^2", "²"}, {"^3", "³"}}) {
     for (std::size_t at = text.find(written); at != std::string::npos; at = text.find(written)) {

@@ -7,32 +7,32 @@
 
 namespace vehd {
 
-/// The problem that a run of a scene solves. All vectors are those of the frame.
+/// The problem that a run of a scene solves. All vectors are in the frame.
 struct Problem {
   Frame frame;
   Model model;
   NumericalSettings settings;
   StepControl control;
-  Symmetry symmetry;                 ///< that the run uses: that of its start, or none where the scene says "off"
+  Symmetry symmetry;                 ///< used by the run: that of its start, or none if the scene says "off"
   std::vector<StartMembrane> start;  ///< of every vesicle
-  std::vector<std::string> names{};  ///< of several vesicles
+  std::vector<std::string> names{};  ///< empty for a single vesicle
 };
 
-/// For an Evolution.
+/// Setup of an Evolution for the problem.
 EvolutionSetup setup_of(const Problem& problem);
 
-/// When steps of the scene have to end; those of waveforms aside.
+/// Times at which steps of the scene must end, without the discontinuities of waveforms.
 EventTimes events_of(const Scene& scene);
 
 /// @throws InputError if the shape file cannot be used
 Problem problem_of(const Scene& scene);
 
-/// Of a scene that continues a run which began with the initial shape in another degree: its frame and symmetry were
-/// found there, and its state is in them.
-/// @param origin  state, in the laboratory, from which it continues another run: they were found in it
+/// Problem of a scene that continues a run. Frame and symmetry are those found at the start of that run, at the degree
+/// start_order, because its state is expressed in them.
+/// @param origin  state, in the laboratory frame, from which that run continued another: they were found in it
 Problem problem_of(const Scene& scene, int start_order, const State* origin = nullptr);
 
-/// The problem with another model, in laboratory coordinates, on the scene's shape.
+/// The problem of another model, in laboratory coordinates, with the shape of the scene.
 Problem problem_of(const Scene& scene, const Model& model);
 
 }  // namespace vehd

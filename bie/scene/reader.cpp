@@ -27,12 +27,12 @@ std::string unknown_key_text(std::string_view table, std::string_view name) {
   const std::string start = fmt::format("unknown key \"{}\" in [{}]", name, table);
   const std::vector<std::string_view> own = key_names(table);
   const std::vector<std::string_view> owners = tables_with(name);
-  // A slip of the finger is likelier than a key in a wrong table.
+  // A typing error is likelier than a key in a wrong table.
   if (owners.empty() || is_one_letter_off(name, own)) return fmt::format("{}; {}", start, suggestion(name, own));
   return fmt::format("{}; it belongs to [{}]", start, fmt::join(owners, "] or ["));
 }
 
-/// "kind "shear"", or "kinds "shear", "gradient"": all for which a key of that name exists.
+/// "kind "shear"", or "kinds "shear", "gradient"": all kinds that have a key of that name.
 std::string kinds_text(std::string_view table, std::string_view name) {
   std::vector<std::string> kinds;
   for (const KeyDescription& key : scene_keys()) {
@@ -42,7 +42,7 @@ std::string kinds_text(std::string_view table, std::string_view name) {
   return fmt::format("kind{} {}", kinds.size() == 1 ? "" : "s", fmt::join(kinds, ", "));
 }
 
-/// @param name  of the two that the key may have the one that the file has
+/// @param name  the one of the two names of the key that the file uses
 void read_key(Scene& scene, KeyDescription key, std::string_view name, const toml::node& node, const TomlFile& file) {
   key.name = name;
   key.set(scene, checked_value(key, node, file.name, scene.units));
@@ -57,7 +57,7 @@ void read_table(Scene& scene, const TableDescription& description, const toml::t
   const auto is_subtable = [&](const auto& entry) {
     return find_table(fmt::format("{}.{}", owner, entry.first.str())) != nullptr;
   };
-  // [electric.waveform] alone makes TOML create [electric] as well.
+  // A file that has only [electric.waveform] makes TOML create [electric] as well.
   if (!table.empty() && !description.present(Scene{}) && std::all_of(table.begin(), table.end(), is_subtable)) {
     file.refuse(table.begin()->second, "[{0}.{1}] without [{0}]: there is nothing that it could act on", owner,
                 table.begin()->first.str());
@@ -95,7 +95,7 @@ void read_table(Scene& scene, const TableDescription& description, const toml::t
   }
 }
 
-/// "its default of 1 would be 1.2e-04 F/m^2", as it is in these units.
+/// "its default of 1 would be 1.2e-04 F/m^2", for these units.
 std::string default_text(const KeyDescription& key, const std::optional<UnitsScene>& units) {
   const double value = std::get<double>(*default_value(key));
   const double si = value * si_scale(units, key.unit);
@@ -104,7 +104,7 @@ std::string default_text(const KeyDescription& key, const std::optional<UnitsSce
                                     : fmt::format("would be {:.2g} {}", si, find_dimension(key.unit)->si_unit()));
 }
 
-/// Every key that the scene needs is in the file.
+/// Checks that the file has every key that the scene needs.
 void require_keys(const Scene& scene, const TomlFile& file) {
   for (const KeyDescription& key : scene_keys()) {
     const toml::table* table = file.find(key.table);
@@ -115,14 +115,14 @@ void require_keys(const Scene& scene, const TomlFile& file) {
   }
 }
 
-/// What a tolerance makes the default, where the scene says nothing itself.
+/// Sets the defaults that depend on the tolerance, for keys that the file leaves out.
 void apply_tolerance(NumericsScene& numerics, const toml::table& table) {
   if (!numerics.tolerance) return;
   if (!has_key(table, *find_key("numerics", "time_order"))) numerics.time_order = highest_time_order;
   if (!has_key(table, *find_key("numerics", "degree"))) numerics.order = default_order(*numerics.tolerance);
 }
 
-/// Finds the reduced volume of an excess area and of a family of shapes.
+/// Sets the reduced volume from the excess area or to the default of the shape.
 void settle_reduced_volume(const Scene& scene, ShapeScene& shape, const TomlFile& file) {
   const KeyDescription* key = find_key_of_kind("shape", "reduced_volume", kind_of(scene, "shape"));
   if (key == nullptr) return;
@@ -148,7 +148,7 @@ void settle_reduced_volume(const Scene& scene, ShapeScene& shape, const TomlFile
   shape.reduced_volume = 0.65;
 }
 
-/// Gives the field its magnitude, where the scene has one of its own.
+/// Scales the field to `field_magnitude` if the scene gives that.
 void scale_field(ElectricScene& electric, const TomlFile& file) {
   if (!electric.field_magnitude) return;
   const double size = std::hypot(electric.field[0], electric.field[1], electric.field[2]);
@@ -160,7 +160,7 @@ void scale_field(ElectricScene& electric, const TomlFile& file) {
   electric.field_magnitude.reset();
 }
 
-/// Nothing but the tables that a scene may have.
+/// Checks that the file has only tables that a scene may have.
 void require_known_tables(const TomlFile& file) {
   std::vector<std::string_view> known;
   for (const TableDescription& table : scene_tables()) {
@@ -205,7 +205,7 @@ Scene scene_of(const TomlFile& file, const std::filesystem::path& folder, const 
   return scene;
 }
 
-/// What a vesicle says about a table: nothing but keys that vesicles may have for themselves.
+/// Checks that a table of a vesicle has only keys that may differ between vesicles.
 void check_table(std::string_view owner, const toml::table& values, const TomlFile& file) {
   if (owner == "electric" && !file.table.contains("electric")) {
     file.refuse(values, "[vesicle.electric] without [electric]: there is no field that could act on it");
@@ -237,7 +237,7 @@ void check_vesicle(const toml::node& entry, const TomlFile& file) {
   }
 }
 
-/// @param number  the name of a vesicle that has none
+/// @param number  of the vesicle, which is its name if none is given
 std::string name_of(const toml::table& vesicle, std::size_t number, const TomlFile& file) {
   constexpr std::size_t longest_name = 64;
   const toml::node* node = vesicle.get("name");
@@ -251,7 +251,7 @@ std::string name_of(const toml::table& vesicle, std::size_t number, const TomlFi
   return name;
 }
 
-/// Names of the vesicles: those that are given, or their numbers from 0. Every table [[vesicle]] has what it may have.
+/// Checks every table [[vesicle]]. @return names of the vesicles, by default their numbers from 0
 std::vector<std::string> read_vesicle_names(const TomlFile& file) {
   const toml::node& node = *file.table.get(vesicle_table);
   const toml::array* entries = node.as_array();
@@ -273,8 +273,8 @@ std::vector<std::string> read_vesicle_names(const TomlFile& file) {
   return names;
 }
 
-/// Makes of a file that of one of its vesicles: its own values take the place of those of all. A [vesicle.shape] with a
-/// kind takes the place of [shape] as a whole. Every value keeps the line where it stands.
+/// Reduces a file to one of its vesicles, whose values replace those for all vesicles. A [vesicle.shape] with a kind
+/// replaces [shape] as a whole. Every value keeps its line number.
 void take_vesicle(toml::table& file, std::size_t vesicle) {
   toml::table own = std::move(*(*file[vesicle_table].as_array())[vesicle].as_table());
   file.erase(vesicle_table);
@@ -325,7 +325,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
     std::vector<Scene> scenes;
     for (std::size_t a = 0; a < names.size(); ++a) {
       take_vesicle(files.emplace_back(parsed()).table, a);
-      // Numbers of all vesicles have one scale.
+      // All vesicles share the scales of the first.
       scenes.push_back(scene_of(files.back(), folder, scenes.empty() ? nullptr : &scenes.front().units));
     }
     const auto is_heavy = [](const Scene& one) { return one.fluid.density_difference != 0.0; };

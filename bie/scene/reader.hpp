@@ -15,17 +15,17 @@ class RunReader;
 /// @throws InputError "file:line: what is wrong, the value, what is accepted"
 Scene read_scene(const std::filesystem::path& path);
 
-/// Reads a scene with other values for some keys. A message about one of these names it in place of "file:line".
+/// Reads a scene with other values for some keys. Messages about such a value name its setting instead of "file:line".
 Scene read_scene(const SceneSource& source);
 
 /// Reads a scene from text in memory.
 /// @param name    stands for the file in messages
 /// @param folder  where relative paths in the scene start
-/// @param settings  values that take the place of those in the text, see SceneSource
+/// @param settings  values that replace those in the text, see SceneSource
 Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                   const std::vector<std::string>& settings = {});
 
-/// The table [units] alone, of the text of an effective scene, in which all its scales are spelled out.
+/// The table [units] of the text of an effective scene, in which all its scales are spelled out.
 /// @return nullopt if the text has no such table
 /// @throws InputError "name:line: ..."
 std::optional<UnitsScene> parse_units(const std::string& text, const std::string& name);

@@ -13,10 +13,10 @@ namespace vehd {
 struct RunTime {
   std::string name, symbol;
   double value = 0.0;             ///< in the scale of the scene
-  std::optional<double> seconds;  ///< where the scene gives the scale
+  std::optional<double> seconds;  ///< if the scene gives the scale
   std::string meaning;            ///< what it means for the run, one line
 
-  /// The value as people read it: "12 ms", or a plain number.
+  /// The value for display: "12 ms", or a plain number.
   [[nodiscard]] std::string text() const;
 };
 

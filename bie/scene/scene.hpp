@@ -52,16 +52,16 @@ enum class ResultUnits { automatic, si, dimensionless };
 /// Reference scales of a scene, in SI base units; a scale that no value needs may be absent.
 struct UnitsScene {
   std::optional<double> length, time, viscosity, potential;
-  std::optional<double> temperature{};  ///< of energies in kBT; no scale
+  std::optional<double> temperature{};  ///< for energies in kBT; not a scale
   bool operator==(const UnitsScene&) const = default;
 };
 
-/// Initial shape; which members count depends on the kind.
+/// Initial shape; the members used depend on the kind.
 struct ShapeScene {
   ShapeKind kind = ShapeKind::ellipsoid;
   Triple axes{1.0, 1.0, 1.0};
-  std::optional<double> reduced_volume;  ///< of a prolate, oblate, biconcave or stomatocyte always present
-  std::optional<double> excess_area{};   ///< that the reduced volume is still to be found of
+  std::optional<double> reduced_volume;  ///< always present for a prolate, oblate, biconcave or stomatocyte
+  std::optional<double> excess_area{};   ///< absent once it is converted to the reduced volume
   double base = 1.0;
   std::optional<double> amplitude;  ///< absent: radius = base + s, otherwise base + amplitude exp(exponent s)
   double exponent = 1.0;
@@ -75,12 +75,12 @@ struct ShapeScene {
   bool operator==(const ShapeScene&) const = default;
 };
 
-/// Factor of a field or flow in the course of time; which members count depends on the kind.
+/// Factor of a field, flow or pump as a function of time; the members used depend on the kind.
 struct WaveformScene {
   WaveformKind kind = WaveformKind::dc;
   double frequency = 1.0, phase = 0.0, start = 0.0, duration = 1.0, period = 1.0;
-  bool average = false;             ///< of an ac field: only the mean of its force over a period counts
-  std::optional<std::string> path;  ///< of a table that is still to be read
+  bool average = false;             ///< of an ac field: only the mean of its force over a period acts
+  std::optional<std::string> path;  ///< file of a table; absent once it is read
   std::vector<double> times, values;
   bool operator==(const WaveformScene&) const = default;
 };
@@ -92,12 +92,12 @@ inline bool alternates(const WaveformScene& waveform) {
 /// Values of kind in the table of a spatially varying property.
 enum class PlaceKind { harmonics, cap, file };
 
-/// Factor of a property of the membrane over its parameter sphere; which members count depends on the kind.
+/// Factor of a property of the membrane over its parameter sphere; the members used depend on the kind.
 struct PlaceScene {
   PlaceKind kind = PlaceKind::harmonics;
   double base = 1.0;
   std::vector<HarmonicMode> modes;
-  std::optional<std::string> path;  ///< of modes that are still to be read
+  std::optional<std::string> path;  ///< file of modes; absent once it is read
   Triple axis{0.0, 0.0, 1.0};
   double angle_deg = 30.0, width_deg = 15.0, inside = 1.0, outside = 1.0;
   bool operator==(const PlaceScene&) const = default;
@@ -168,7 +168,7 @@ struct SuspensionScene {
   bool operator==(const SuspensionScene&) const = default;
 };
 
-/// Table [flow]; which members count depends on the kind.
+/// Table [flow]; the members used depend on the kind.
 struct FlowScene {
   FlowKind kind = FlowKind::shear;
   double rate = 1.0;
@@ -182,15 +182,15 @@ struct FlowScene {
 /// Table [electric].
 struct ElectricScene {
   Triple field{0.0, 0.0, 0.0};
-  std::optional<double> field_magnitude{};  ///< that the field is still to be scaled to
+  std::optional<double> field_magnitude{};  ///< absent once the field is scaled to it
   double conductivity_in = 1.0, conductivity_out = 1.0, permittivity = 1.0, permittivity_ratio = 1.0;
   bool displacement_current = false;
   std::optional<WaveformScene> waveform;                        ///< absent: constant
-  InitialPotential initial_potential = InitialPotential::zero;  ///< of the file by default, where it has one
+  InitialPotential initial_potential = InitialPotential::zero;  ///< by default `file` if the shape file has V_m
   bool operator==(const ElectricScene&) const = default;
 };
 
-/// Table [poration]; which members count depends on the model.
+/// Table [poration]; the members used depend on the model.
 struct PorationScene {
   PorationModel model = PorationModel::criterion;
   std::optional<double> threshold_potential, lysis_tension;
@@ -219,7 +219,7 @@ struct OutputWindow {
   bool operator==(const OutputWindow&) const = default;
 };
 
-/// Table [output]. Snapshots come at the start, at the end and whenever any of these asks for one.
+/// Table [output]. Snapshots are taken at the start, at the end and at the times that these members give.
 struct OutputScene {
   std::optional<double> every;
   std::vector<double> times;
@@ -228,8 +228,8 @@ struct OutputScene {
   bool operator==(const OutputScene&) const = default;
 };
 
-/// A table [[vesicle]] with what it takes over from the tables of all. Members that belong to all vesicles, such as the
-/// field, are those of the scene.
+/// One of several vesicles: the keys of its table [[vesicle]], and those it takes from the tables for all. Members that
+/// belong to all vesicles, such as the field, are those of the scene.
 struct VesicleScene {
   std::string name;
   ShapeScene shape;
@@ -253,19 +253,19 @@ struct Scene {
   std::optional<PorationScene> poration;
   NumericsScene numerics;
   OutputScene output;
-  std::optional<SuspensionScene> suspension{};  ///< until its vesicles are placed
-  /// Empty: one vesicle, that of the tables above. Otherwise all of them; the tables above are then those of the first.
+  std::optional<SuspensionScene> suspension{};  ///< absent once its vesicles are placed
+  /// Empty for a single vesicle. Otherwise all vesicles; the members above are then those of the first.
   std::vector<VesicleScene> vesicles{};
   bool operator==(const Scene&) const = default;
 };
 
-/// Does only the mean of the field's force over a period count?
+/// Does only the mean of the field's force over a period act?
 inline bool has_averaged_field(const Scene& scene) {
   return scene.electric && scene.electric->waveform && alternates(*scene.electric->waveform) &&
          scene.electric->waveform->average;
 }
 
-/// Does free charge relax in time beside V_m?
+/// Does free charge relax in time in addition to V_m?
 inline bool has_relaxing_charge(const Scene& scene) {
   return scene.electric && scene.electric->displacement_current && !has_averaged_field(scene);
 }
@@ -275,13 +275,13 @@ inline bool takes_stored_potential(const Scene& scene) {
   return scene.electric && scene.electric->initial_potential == InitialPotential::file;
 }
 
-/// Does a membrane differ from place to place, or have a pump?
+/// Does a membrane have spatially varying properties or a pump?
 inline bool has_places(const MembraneScene& membrane) {
   return membrane.capacitance_by_place || membrane.conductance_by_place || membrane.bending_by_place ||
          membrane.curvature_by_place || membrane.pump;
 }
 
-/// Does that of any vesicle?
+/// Does any vesicle have such a membrane?
 inline bool has_places(const Scene& scene) {
   return has_places(scene.membrane) ||
          std::ranges::any_of(scene.vesicles, [](const VesicleScene& vesicle) { return has_places(vesicle.membrane); });

@@ -13,10 +13,10 @@
 namespace vehd {
 namespace {
 
-/// A type of values in words.
+/// Texts for a type of values.
 struct TypeWords {
   std::string_view name;
-  std::string_view accepted;  ///< {}: the range, the words or the units of the key
+  std::string_view accepted;  ///< {} stands for the range, the words or the units of the key
 };
 constexpr std::array<TypeWords, 12> type_words = {{
     {"boolean", "true or false"},

@@ -19,8 +19,8 @@ namespace vehd {
 using Value = std::variant<bool, std::int64_t, double, std::string, Triple, TripleOfTriples, AxisAngle,
                            std::vector<double>, std::vector<HarmonicMode>, std::vector<OutputWindow>>;
 
-/// The alternatives of a Value in their order, and two that have a type of them: a word is one of some texts, a
-/// quantity is a number that always has a unit, kept in SI. Every other value is dimensionless once read.
+/// The alternatives of a Value in their order, and two that are stored in one of them: a word is one of several texts,
+/// a quantity is a number that always has a unit, stored in SI. Every other number is dimensionless once read.
 enum class ValueType {
   boolean,
   integer,
@@ -50,35 +50,35 @@ struct Range {
 
 /// The smallest value of "tolerance".
 constexpr double tightest_tolerance = 1e-9;
-/// Sizes in any unit of length, whose cubes and their products are far from the limits of a double.
+/// Sizes in any unit of length: their cubes, and products of these, stay far from the limits of a double.
 constexpr Range size_range{1e-30, 1e30, false};
 
-/// One key of a scene: what it is called, what it accepts, where its value is.
+/// One key of a scene: names, accepted values and access to its value.
 struct KeyDescription {
   std::string_view table;
   std::string_view name;
-  std::string_view other_name;  ///< under which it is read as well; empty if it has none
+  std::string_view other_name;  ///< also accepted on reading; empty if it has none
   ValueType type = ValueType::number;
   Value stored_as;          ///< any value of the type in which its values are stored
   std::string_view symbol;  ///< as in the paper; empty if it has none
-  std::string_view unit;    ///< name of a dimension (units.hpp), "1", or empty where the value is no number
+  std::string_view unit;    ///< name of a dimension (units.hpp), "1", or empty if the value is not a number
   Range range;
   std::vector<std::string_view> words;  ///< accepted values of a word
   std::vector<std::string_view> kinds;  ///< the key belongs to these kinds of its table only; empty: to all
-  bool required = false;                ///< see needs_value as well
+  bool required = false;                ///< see also needs_value
   std::function<bool(const Scene&)> default_has_effect;  ///< empty: in every scene that has the key
   std::string_view description;
   std::function<std::optional<Value>(const Scene&)> get;  ///< nullopt: the optional value is absent
   std::function<void(Scene&, const Value&)> set;
 
-  /// Is this its name, or the other one?
+  /// Is this one of its names?
   [[nodiscard]] bool is_called(std::string_view word) const;
-  /// Is the number in the range, and 0 or of a magnitude whose products with others a double holds (units.hpp)? Times
-  /// are compared and not multiplied with each other, so that they may be as long as a double holds.
+  /// Is the number in the range, and 0 or within the accepted magnitudes (units.hpp)? Times have no upper limit of
+  /// magnitude, because they are compared and not multiplied with each other.
   [[nodiscard]] bool takes(double value) const;
   /// Does the key belong to this kind of its table?
   [[nodiscard]] bool is_for(std::string_view kind) const;
-  /// Its type in a word or two.
+  /// Name of its type.
   [[nodiscard]] std::string_view type_text() const;
   /// Accepted values, in words.
   [[nodiscard]] std::string accepted_text() const;
@@ -93,51 +93,51 @@ struct TableDescription {
   std::function<void(Scene&)> create;
 };
 
-/// In the order in which tables and keys are read and written.
+/// All tables, in the order in which they are read and written.
 const std::vector<TableDescription>& scene_tables();
-/// The keys of all tables.
+/// The keys of all tables, in the order in which they are read and written.
 const std::vector<KeyDescription>& scene_keys();
 
 /// Names of the keys of a table, each once.
 std::vector<std::string_view> key_names(std::string_view table);
 
-/// nullptr if there is none of that name.
+/// The table of that name, or nullptr.
 const TableDescription* find_table(std::string_view name);
 
 /// Names of the tables that have a key of that name.
 std::vector<std::string_view> tables_with(std::string_view key);
 
-/// The first key of either name, or nullptr. A table may have rows of one name for different kinds.
+/// The first row of the key with either name, or nullptr. A key may have different rows for different kinds.
 const KeyDescription* find_key(std::string_view table, std::string_view name);
 
-/// The key of that name that counts for the kind, or nullptr.
+/// The row of the key that applies to the kind, or nullptr.
 const KeyDescription* find_key_of_kind(std::string_view table, std::string_view name, std::string_view kind);
 
 /// The key whose value is the kind of a table, "kind" or the "model" of an effect; nullptr for tables without kinds.
 const KeyDescription* kind_key(std::string_view table);
 
-/// Value of that key; empty for tables without kinds.
+/// Value of kind_key; empty for tables without kinds.
 std::string kind_of(const Scene& scene, std::string_view table);
 
-/// Whether the key counts for this scene: its table is present and of the key's kind.
+/// Whether the key applies to this scene: its table is present and of the key's kind.
 bool applies(const KeyDescription& key, const Scene& scene);
 
-/// The value where the table is there and the key is left out; nullopt: absent.
+/// Value of a key that is left out of a table that is present; nullopt: absent.
 std::optional<Value> default_value(const KeyDescription& key);
 
-/// Is the default one reference unit or more of them, and thus another quantity with other [units]? It is so of every
-/// key with a dimension whose default is neither 0 nor absent.
+/// Does the meaning of the default depend on [units]? True for every key with a dimension whose default is neither 0
+/// nor absent.
 bool has_default_in_units(const KeyDescription& key);
 
-/// Whether the scene, which has the key, may not leave it out: a required one and, beside [units], one with a default
-/// in units that has an effect.
+/// Whether the scene, which has the key, must give its value: if it is required or, with [units], if its default
+/// depends on the units and has an effect.
 bool needs_value(const KeyDescription& key, const Scene& scene);
 
-/// "table.key" of every value in which the scenes differ, "vesicle[0].table.key" of those of one of several vesicles;
-/// "vesicle.name" alone where they have other vesicles.
+/// "table.key" of every value in which the scenes differ, "vesicle[0].table.key" for one of several vesicles; only
+/// "vesicle.name" if the names of the vesicles differ.
 std::vector<std::string> differing_keys(const Scene& a, const Scene& b);
 
-/// A value as TOML, numbers with as many digits as reading back exactly needs.
+/// A value as TOML, numbers with the digits that reading them back exactly needs.
 std::string to_toml(const Value& value);
 
 /// The value of a key as TOML; a quantity in its SI unit.

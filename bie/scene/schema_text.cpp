@@ -63,7 +63,7 @@ std::string default_text(const KeyDescription& key) {
 
 std::string or_dash(std::string_view text) { return text.empty() ? "–" : std::string(text); }
 
-/// The keys that every vesicle may have for itself.
+/// Keys that may differ between vesicles.
 TextTable own_keys() {
   TextTable rows = {{"table", "keys"}, {"[[vesicle]]", "name"}};
   for (const std::string_view table : vesicle_tables()) {
@@ -74,7 +74,7 @@ TextTable own_keys() {
   return rows;
 }
 
-/// Header and keys of a table; the column of kinds only where there are any.
+/// Header and keys of a table; with a column of kinds only if there are any.
 TextTable key_table(const TableDescription& table) {
   TextTable rows = {{"key", "of kind", "symbol", "type", "unit", "range", "default", "meaning"}};
   for (const KeyReference& key : key_references()) {
@@ -86,7 +86,7 @@ TextTable key_table(const TableDescription& table) {
   return rows;
 }
 
-/// The keys of a table on the page. Those that it shares with a table before it stand there alone.
+/// Keys of a table in Markdown; a link replaces those that an earlier table has as well.
 std::string keys_markdown(const TableDescription& table) {
   const TextTable rows = key_table(table);
   for (const TableDescription& earlier : scene_tables()) {
@@ -104,7 +104,7 @@ std::string keys_markdown(const TableDescription& table) {
   return markdown_table(rows);
 }
 
-/// The dimensions that some key has.
+/// Dimensions that occur in keys, with their reference scales and units.
 TextTable unit_table() {
   TextTable rows = {{"dimension", "reference scale", "units"}};
   for (const Dimension& dimension : dimensions()) {

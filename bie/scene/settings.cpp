@@ -21,7 +21,7 @@ std::string trimmed(const std::string& text) {
   return start == std::string::npos ? "" : text.substr(start, text.find_last_not_of(" \t") - start + 1);
 }
 
-/// Names of letters, digits, _ and -, with points between them.
+/// Does the text consist of names of letters, digits, _ and -, separated by dots?
 bool is_dotted_name(const std::string& text) {
   const auto fits = [](unsigned char letter) {
     return std::isalnum(letter) != 0 || letter == '_' || letter == '-' || letter == '.';
@@ -53,7 +53,7 @@ std::pair<std::string, std::string> assignment_of(const std::string& setting) {
   return {key, trimmed(setting.substr(equals + 1))};
 }
 
-/// A value could otherwise end its line and go on with a table of its own.
+/// Is the text a single value? Otherwise it could end its line and add a table.
 bool is_toml_value(const std::string& text) {
   try {
     return toml::parse("value = " + text + "\n").size() == 1;
@@ -62,7 +62,7 @@ bool is_toml_value(const std::string& text) {
   }
 }
 
-/// The table that a setting "vesicle.NAME.table.key" is for, and "table.key".
+/// Table of the vesicle that a setting "vesicle.NAME.table.key" names, and "table.key".
 std::pair<toml::table*, std::string> of_vesicle(toml::table& file, const std::string& key, const std::string& setting) {
   const toml::array* vesicles = file["vesicle"].as_array();
   std::vector<std::string> names;
@@ -78,7 +78,7 @@ std::pair<toml::table*, std::string> of_vesicle(toml::table& file, const std::st
                                fmt::join(names, ", ")));
 }
 
-/// A key of two names is not to be there under both, nor one of two that say the same.
+/// Removes the other name of a key, and the other one of excess_area and reduced_volume: only one may be given.
 void forget_other_name(toml::table& file, const std::string& name) {
   const std::size_t last = name.rfind('.');
   const std::string table = name.substr(0, last), word = name.substr(last + 1);

@@ -9,29 +9,28 @@
 
 namespace vehd {
 
-/// Where a scene comes from: a file or a text, and values that take the place of its own.
+/// Source of a scene: a file or a text, and values that replace some of its own.
 struct SceneSource {
-  std::filesystem::path file;  ///< paths in either are relative to its folder
+  std::filesystem::path file;  ///< paths in file and text are relative to its folder
   std::vector<std::string>
-      settings;  ///< "table.key=value", as of the option --set; of two for one key the later counts
-  std::optional<std::string> text{};  ///< in place of what the file holds, which need not exist
+      settings;  ///< "table.key=value", as for the option --set; the later one counts if a key is set twice
+  std::optional<std::string> text{};  ///< replaces the content of the file, which need not exist
 };
 
-/// Puts values into the tables of a scene file. A value is TOML; what is no TOML is a text, so that a shell's words
-/// need no quotes of their own: flow.kind=shear, flow.rate=2 1/s. Messages about a value name its option in place of a
-/// line.
-/// @param settings  "table.key=value", or "vesicle.NAME.table.key=value" of one of several vesicles
-/// @throws InputError if one of them is not of that form; what it says is checked with the rest of the scene
+/// Sets values in the tables of a scene file. A value that is not TOML is a text, so that words need no quotes in a
+/// shell: flow.kind=shear, flow.rate=2 1/s. Messages about a value name its option instead of a line.
+/// @param settings  "table.key=value", or "vesicle.NAME.table.key=value" for one of several vesicles
+/// @throws InputError if one of them is not of that form; values are checked with the rest of the scene
 void apply_settings(toml::table& file, const std::vector<std::string>& settings);
 
-/// "table.key" of "vesicle.NAME.table.key" with one of these names; any other key as it is.
+/// "table.key" for "vesicle.NAME.table.key" with one of these names; other keys unchanged.
 std::string key_of_vesicle(const std::string& key, const std::vector<std::string>& names);
 
-/// Moves what `from` has into `to`, where its values take the place of others: a node that is copied forgets where it
-/// was written.
+/// Moves the values of `from` into `to`, where they replace others. They are moved because the copy of a node loses its
+/// place in the file.
 void merge_tables(toml::table& to, toml::table&& from);
 
-/// Whether a node comes from a setting. Its path is then the option as it was given.
+/// Whether a node comes from a setting. The path of its source is then the option as given.
 bool is_from_setting(const toml::node& node);
 
 }  // namespace vehd

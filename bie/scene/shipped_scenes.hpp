@@ -12,7 +12,7 @@ struct ShippedScene {
   std::string_view text;
 };
 
-/// All of docs/scenes as they were when the program was built, in the order of their names.
+/// All scenes of docs/scenes at the time of the build, ordered by name.
 const std::vector<ShippedScene>& shipped_scenes();
 
 /// Description of a scene: the first sentence of its first comment.

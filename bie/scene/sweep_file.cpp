@@ -39,7 +39,7 @@ std::string value_text(const toml::node& node) {
   return shown(node);
 }
 
-/// One key of [vary] in its file.
+/// Reads one key of [vary].
 class VariedKeyReader {
  public:
   /// @param scene  the base scene
@@ -88,7 +88,7 @@ class VariedKeyReader {
     file_.refuse(node, "\"{}\" in [vary] {}", name_, fmt::format(problem, std::forward<Arguments>(arguments)...));
   }
 
-  /// @throws what the first description says where none accepts the value
+  /// @throws InputError with the message of the first description if none accepts the value
   void require_accepted(const toml::node& node) const {
     std::exception_ptr first;
     for (const KeyDescription* description : descriptions_) {
@@ -189,7 +189,7 @@ std::filesystem::path base_scene(const TomlFile& file, const std::filesystem::pa
   return scene;
 }
 
-/// A key may also stand without quotes, as a table within tables: flow.rate = {...}.
+/// A key may also be written without quotes, as nested tables: flow.rate = {...}.
 void add_varied_keys(const toml::table& table, const std::string& prefix, const TomlFile& file, SweepFile& sweep) {
   for (const auto& [word, node] : table) {
     const std::string name = prefix + std::string(word.str());
@@ -217,7 +217,7 @@ void read_varied_keys(const TomlFile& file, SweepFile& sweep) {
         fmt::format("{}:1: missing table [vary]; accepted: \"table.key\" = {{values = [...]}}", file.name));
   }
   add_varied_keys(*vary, "", file, sweep);
-  // In the order of the file: the library sorts by name.
+  // Restores the order of the file: the library sorts by name.
   const auto position = [vary](const VariedKey& key) {
     const toml::node* node = vary->get(key.name);
     if (node == nullptr) node = vary->at_path(key.name).node();
@@ -226,7 +226,7 @@ void read_varied_keys(const TomlFile& file, SweepFile& sweep) {
   std::ranges::stable_sort(sweep.keys, [&](const auto& a, const auto& b) { return position(a) < position(b); });
 }
 
-/// Two runs of a grid would be the same.
+/// Equal values would give equal runs of a grid.
 void require_different_values(const VariedKey& key, const TomlFile& file) {
   std::set<std::string> values;
   for (const VariedValue& value : key.values) {

@@ -13,44 +13,44 @@ constexpr std::size_t most_runs = 100000;
 
 /// One value that a sweep gives to a key.
 struct VariedValue {
-  std::string toml;   ///< as of SceneSource::settings
+  std::string toml;   ///< as in SceneSource::settings
   std::string shown;  ///< in tables: a text without its quotes
 };
 
-/// One key of a sweep and what it takes in turn.
+/// One key of a sweep and its values.
 struct VariedKey {
   std::string name;  ///< "table.key"
   std::vector<VariedValue> values;
-  bool is_logarithmic = false;  ///< given from one value to another by equal factors
+  bool is_logarithmic = false;  ///< values are spaced by equal factors
 };
 
 /// A column of history.csv that the table of a sweep shows.
 struct SweepColumn {
   std::string name;
-  std::string place{};  ///< "file:line" where it is asked for
+  std::string place{};  ///< "file:line" of the request
 };
 
-/// How the values of several keys meet: each of one with each of the other, or the first ones together, the second ones
-/// together ...
+/// How the values of several keys are combined: every value of one with every value of the others, or all first values
+/// together, all second values together, …
 enum class SweepMode { grid, zip };
 
-/// A sweep as its file gives it.
+/// Contents of a sweep file.
 struct SweepFile {
   std::filesystem::path file;
   std::filesystem::path scene_file;
-  Scene scene;  ///< without any of the values
+  Scene scene;  ///< base scene, without any of the values
   std::vector<VariedKey> keys;
   SweepMode mode = SweepMode::grid;
   std::vector<SweepColumn> columns;  ///< empty: the file names none
 
-  /// Of the runs that it asks for; most_runs + 1 stands for all larger numbers.
+  /// Number of runs; most_runs + 1 stands for all larger numbers.
   [[nodiscard]] std::size_t n_runs() const;
-  /// The values of one run, one for each key. The last key of a grid changes first.
+  /// The values of one run, one for each key. The last key of a grid changes fastest.
   [[nodiscard]] std::vector<VariedValue> values_of(std::size_t run) const;
 };
 
-/// Reads and validates a sweep (docs/sweeps.md) and its base scene. Every value is one that its key accepts; whether a
-/// scene accepts it together with all others is found out when that scene is made.
+/// Reads and validates a sweep (docs/sweeps.md) and its base scene. Every value is checked against its key;
+/// combinations of values are checked when their scenes are read.
 /// @throws InputError "file:line: what is wrong, the value, what is accepted"
 SweepFile read_sweep(const std::filesystem::path& path);
 

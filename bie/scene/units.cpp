@@ -24,7 +24,7 @@ std::string without_outer_spaces(std::string_view text) {
   return start == std::string_view::npos ? "" : std::string(text.substr(start, text.find_last_not_of(' ') + 1 - start));
 }
 
-/// Other ways of writing the same unit.
+/// Normal form of the different spellings of a unit.
 std::string plain_unit(std::string_view text) {
   constexpr std::array<std::array<std::string_view, 2>, 9> spellings = {
       {{"µ", "u"}, {"μ", "u"}, {"²", "^2"}, {"³", "^3"}, {"·", " "}, {"⋅", " "}, {".", " "}, {"*", " "}, {"\t", " "}}};
@@ -97,7 +97,7 @@ const std::vector<Dimension>& dimensions() {
       {"1/area", {-2, 0, 0, 0}, {{"1/m^2"}, {"1/um^2", 1e12}}, "1/m^2"},
       {"1/(area time)", {-2, -1, 0, 0}, {{"1/(m^2 s)"}, {"1/(um^2 us)", 1e18}}},
       {"temperature", {0, 0, 0, 0}, {{"K"}}},
-      // Of results alone, by the names that run.h5 has for them.
+      // Dimensions of results, with the names in run.h5; keys have only force/length of these.
       {"volume", {3, 0, 0, 0}, {{"m^3"}}, "um^3"},
       {"length^2", {2, 0, 0, 0}, {{"m^2"}}, "um^2"},
       {"force/area", {0, -1, 1, 0}, {{"Pa"}}, "Pa"},

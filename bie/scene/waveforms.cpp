@@ -58,7 +58,7 @@ double fewest_steps(const WaveformScene& waveform, double end) {
           : fewest_steps_a_period * waveform.frequency *
                 std::clamp(std::min(waveform.start + waveform.duration, end) - std::max(waveform.start, 0.0), 0.0,
                            waveform.duration);
-  // Pulses that have begun, and those that have ended.
+  // Starts of pulses, and their ends.
   const bool repeats = waveform.kind == WaveformKind::pulse_train;
   const auto since = [&](double first) {
     return after_zero([=, period = waveform.period](double time) {

@@ -19,11 +19,11 @@ namespace {
 /// Names of snapshots have six digits.
 constexpr double most_snapshots = 999999;
 constexpr double most_steps = 1e9;
-/// Largest trace of a velocity gradient, relative to its entries: what decimal input rounds to.
+/// Largest trace of a velocity gradient, relative to its entries: rounding of decimal input.
 constexpr double trace_tolerance = 1e-12;
-/// A step as long as the period would see an alternating field as constant.
+/// With steps of a whole period an alternating field would look constant.
 constexpr double fewest_fixed_steps_a_period = 4.0;
-/// Of a cap that the degree cuts, over its step: what it may be wrong by, and hence fall below zero.
+/// Largest truncation error of a cap, relative to its step. The factor may fall below zero by as much.
 constexpr double largest_truncation = 0.02;
 
 class SceneChecks {
@@ -79,7 +79,7 @@ class SceneChecks {
     refuse_if(turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0, "shape.rotation",
               "{} has the axis 0, 0, 0; accepted: an axis that is not zero");
     if (shape.kind != ShapeKind::radial) return;
-    // The effective scene spells out every default.
+    // The default is accepted, because the effective scene spells it out.
     refuse_if(!shape.amplitude && shape.exponent != ShapeScene{}.exponent, "shape.exponent",
               "{} has no effect without \"amplitude\"");
     for (std::size_t i = 0; i < shape.modes.size(); ++i) {
@@ -168,7 +168,7 @@ class SceneChecks {
     }
   }
 
-  /// Of fixed steps.
+  /// Fixed steps must resolve every period.
   void check_periods() const {
     if (!scene_.numerics.dt) return;
     for (const ActingWaveform& acting : acting_waveforms(scene_)) {
@@ -180,7 +180,7 @@ class SceneChecks {
     }
   }
 
-  /// Blames the key that asks for most of them.
+  /// Refuses too many steps, naming the key that causes most of them.
   void require_few_steps() const {
     const NumericsScene& numerics = scene_.numerics;
     std::vector<std::pair<double, std::string>> demands;
@@ -246,8 +246,8 @@ class SceneChecks {
     check_pump(*m.pump);
   }
 
-  /// @param value  in [membrane] under the key: the property where the factor is 1
-  /// @param sign   that the property must have
+  /// @param value  of `key` in [membrane]: the property where the factor is 1
+  /// @param sign   required sign of the property
   void check_property(std::string_view name, const std::optional<PlaceScene>& places, bool is_electric,
                       std::string_view key, double value, Sign sign) const {
     if (!places) return;
@@ -260,7 +260,7 @@ class SceneChecks {
     if (sign == Sign::any) return;
     const int degree = scene_.numerics.order;
     const Vector factor = SphereTransform(degree, make_grid(2 * degree)).synthesize(place_factor(*places, degree));
-    // A cut cap falls below zero.
+    // A truncated cap may fall below zero.
     const double least = factor.minCoeff(), cut = -largest_truncation * factor.maxCoeff();
     refuse_if(!(sign == Sign::zero_or_more ? least >= cut : least > 0.0), kind,
               "the factor in [{1}] falls to {2:.3g}; accepted: {3} everywhere", table, least,
@@ -328,7 +328,7 @@ class SceneChecks {
     require_scale(units, "potential", &UnitsScene::potential, "electric.initial_Vm", "\"initial_Vm\" zero or steady");
   }
 
-  /// @param way_out  what makes the scale unnecessary
+  /// @param way_out  alternative that does not need the scale
   void require_scale(const std::optional<UnitsScene>& of_run, std::string_view name,
                      std::optional<double> UnitsScene::*scale, std::string_view key, std::string_view way_out) const {
     if (conversion(of_run, scene_.units, scale)) return;
@@ -341,7 +341,7 @@ class SceneChecks {
 
   /// Area and volume must be positive and finite.
   void check_size() const {
-    // About its own centre: the volume of a far shape would have no digits left.
+    // About its own centre: the volume of a shape far from the origin would lose all its digits.
     Scene centred = scene_;
     centred.shape.centre = {};
     const ShapeSize size = size_of(initial_position(centred));
@@ -386,7 +386,7 @@ class SceneChecks {
 
   Scene& scene_;
   const TomlFile& file_;
-  bool is_heavy_;  ///< something else has a weight
+  bool is_heavy_;  ///< another vesicle has a weight
 };
 
 }  // namespace

@@ -17,7 +17,7 @@
 namespace vehd {
 namespace {
 
-/// No point of the membrane is farther from its mean, by the addition theorem degree by degree.
+/// Bound on the distance of membrane points from their mean, by the addition theorem for each degree.
 double reach_bound(const Matrix& position) {
   double bound = 0.0;
   for (int n = 1; n <= order_of(position.rows()); ++n) {
@@ -43,14 +43,14 @@ class VesicleChecks {
   }
 
  private:
-  /// Those of a suspension stand nowhere.
+  /// Node of a vesicle for messages; vesicles of a suspension have none of their own.
   [[nodiscard]] const toml::node& node_of(std::size_t vesicle) const {
     if (const toml::node* all = file_.table.get("vesicle")) return (*all->as_array())[vesicle];
     const toml::node* suspension = file_.table.get("suspension");
     return suspension != nullptr ? *suspension : *file_.table.get("shape");
   }
 
-  /// Where the file says it, otherwise what it belongs to.
+  /// Node of the centre of a vesicle, or of its owner if the centre is left out.
   [[nodiscard]] const toml::node& centre_of(std::size_t vesicle) const {
     const toml::node& owner = node_of(vesicle);
     const auto centre = owner.as_table()->at_path(file_.table.contains("vesicle") ? "shape.centre" : "centre");
@@ -114,7 +114,7 @@ class VesicleChecks {
     }
   }
 
-  /// Coordinates are rounded, and their differences have to hold the tightest tolerance.
+  /// Differences of rounded coordinates must resolve the tightest tolerance.
   void check_distance(std::size_t vesicle, const Matrix& position) const {
     constexpr double farthest = tightest_tolerance / std::numeric_limits<double>::epsilon();
     const double distance = position.row(0).norm();
@@ -142,11 +142,11 @@ class VesicleChecks {
     file_.refuse(node_of(b), "{}, is inside {}; {}", placed(b), called(a), accepted);
   }
 
-  /// A run would stop where it starts.
+  /// A run with a smaller gap would stop at its start.
   void check_gap(std::size_t a, std::size_t b, const std::vector<Matrix>& positions) const {
     const double gap = nearest_points(positions[a], positions[b]).gap;
     const Matrix& first = positions[a];
-    // Far from that, whatever the radius is exactly.
+    // Vesicles farther apart than this pass; their radii are not needed.
     constexpr double kFar = 0.01;
     if (gap > kFar * first.bottomRows(first.rows() - 1).norm()) return;
     const double area = std::min(vehd::size_of(positions[a]).area, vehd::size_of(positions[b]).area);

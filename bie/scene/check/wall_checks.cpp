@@ -13,11 +13,11 @@
 namespace vehd {
 namespace {
 
-/// What decimal input rounds to, relative.
+/// Relative rounding of decimal input.
 constexpr double kRounding = 1e-12;
 
-/// The part of a flow that the wall does not allow must vanish there: v of one without slip, n·v and the shear stress
-/// of a stress-free one. Gradients in the coordinates of the scene, flows linear in x or quadratic across their axis.
+/// The applied flow must vanish on the wall as far as the wall requires: v on a no-slip wall, n·v and the shear stress
+/// on a stress-free one. Flows are linear in x or quadratic across their axis, in the coordinates of the scene.
 class WallChecks {
  public:
   WallChecks(const Scene& scene, const TomlFile& file)
@@ -89,7 +89,7 @@ class WallChecks {
            (along * (gradient + gradient.transpose()) * n).norm() <= size;
   }
 
-  /// Flow along x: through a tube it vanishes on no plane, and planes through its axis are not sheared.
+  /// Is a flow along x allowed? Through a tube it vanishes on no plane; planes through its axis are not sheared.
   [[nodiscard]] bool allows_poiseuille() const {
     const Vector3 n = wall_.normal.cwiseAbs();
     const double height = std::abs(wall_.normal.dot(wall_.point)), rounding = kRounding * wall_.point.norm();

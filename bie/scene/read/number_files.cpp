@@ -11,14 +11,14 @@
 namespace vehd {
 namespace {
 
-/// Of lines in a file of harmonics: those of the highest degree.
+/// Most lines of a file of harmonics: one for each harmonic up to the highest degree.
 constexpr std::size_t most_modes = 1 + highest_order * (highest_order + 2);
-/// A waveform of more rows or bytes is some other file. The rows become part of the effective scene, which every
-/// checkpoint holds and which must not be too long for a scene file itself.
+/// A file with more rows or bytes is no waveform. The rows become part of the effective scene, which every checkpoint
+/// stores and which must not be too long for a scene file itself.
 constexpr std::size_t most_rows = 10000;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 22;
 
-/// @param read  one line without its comment: takes it and the line as written for messages, with its place
+/// @param read  called with the words of a line without its comment, its place, and the line as written for messages
 template <typename Read>
 void for_each_row(std::istream& stream, const std::string& name, const Read& read) {
   std::string line;
@@ -37,7 +37,7 @@ bool is_at_end(std::istringstream& words) {
   return !(words >> more);
 }
 
-/// The stream of a file of numbers.
+/// Opens a file of numbers.
 /// @param what  has the path, for messages
 std::ifstream opened(const std::string& name, const char* what) {
   std::error_code error;

@@ -6,53 +6,52 @@
 
 #include "bie/scene/read/toml_values.hpp"
 
-/// The steps of parse_scene on a scene file, in their order. Each throws InputError "file:line: ..." at the
-/// key to blame.
+/// Steps of parse_scene, in their order. Each throws InputError "file:line: ..." with the place of the faulty key.
 namespace vehd {
 
-/// Fills the scales that [units] leaves out from values of the scene that are given in SI units, so that the vesicle's
-/// radius √(area/4π), the viscosity, the shortest time and the membrane capacitance are 1, each where it is the one to
-/// fix a scale. A scale without such a value stays absent. The shortest time is what is fastest in the scene: a pulse,
-/// the period of a waveform, the time of a rate of flow, and, with the reference length L and viscosity μ, the charging
-/// time L C_m (1/σ_i + 1/(2σ_e)), the electric time μ/(ε E²) and the bending time μ L³/κ_B. A value that is to be
-/// refused is refused here: other keys would be blamed for a scale that it does not give.
+/// Fills the scales that [units] leaves out from values that the scene gives in SI units: the vesicle's radius
+/// √(area/4π), the viscosity, the shortest time and the membrane capacitance become 1, each if its scale is left out. A
+/// scale without such a value stays absent. The shortest time is the least of the durations, periods and 1/frequency
+/// (not of an averaged field) of the waveforms of flow and field, the time of a flow rate and, with the reference
+/// length L and viscosity μ, the charging time L C_m (1/σ_i + 1/(2σ_e)), the electric time μ/(ε E²) and the bending
+/// time μ L³/κ_B. Invalid values are refused here: later messages would blame other keys.
 void derive_reference_scales(UnitsScene& units, const TomlFile& file);
 
-/// Keys whose units could determine a scale of [units], as messages name them: "area" in [shape].
+/// Keys whose values could determine a scale of [units], as messages name them: "area" in [shape].
 std::string source_of_scale(std::string_view scale);
 
 /// Replaces every `path` of a waveform or of a spatially varying property with the numbers of its file: lines of
-/// numbers apart by blanks or a comma; # starts a comment. A run so knows them even when the file is gone.
+/// numbers separated by blanks or a comma; # starts a comment. A run can then continue without the file.
 /// @param folder  where a relative path starts
 void read_number_files(Scene& scene, const std::filesystem::path& folder);
 
-/// Times and values of a waveform; `name` stands for the file in messages.
+/// Reads times and values of a waveform; `name` stands for the file in messages.
 void read_waveform_rows(WaveformScene& waveform, std::istream& stream, const std::string& name);
 
-/// Conditions that tie values of one vesicle together, its shape file included; single values are checked against the
-/// key table. V_m is that of the shape file where there is one and the scene does not say otherwise. A scale that the
-/// file or the scene alone has is an error where a value needs it: the length of the shape, unless [shape] sets its
-/// area, the time of a snapshot, and the potential.
-/// @param file      that of the vesicle
-/// @param is_heavy  another vesicle beside it has a weight
+/// Checks conditions between values of one vesicle, including its shape file; single values are checked against the key
+/// table. V_m is taken from the shape file if that has one and the scene does not specify it. A scale that only the
+/// file or only the scene has is an error if a value needs it: the length of the shape, unless [shape] sets its area;
+/// the time of a snapshot; the potential.
+/// @param file      of the vesicle
+/// @param is_heavy  another vesicle has a weight
 void check_scene(Scene& scene, const TomlFile& file, bool is_heavy);
 
 /// The part of check_scene about undulations.
 void check_undulations(const Scene& scene, const TomlFile& file);
 
-/// The vesicles of a scene with a table [suspension]: copies of that of the other tables, placed one after the other at
-/// random where there is room for the whole of them, by names "0", "1", …. The same scene gives the same places.
-/// Vesicles that are too many or do not fit are refused before any memory is taken for them.
-/// @param one  with its table, which the result no longer has
+/// Places the vesicles of a table [suspension]: copies of the vesicle of the other tables, with the names "0", "1", …,
+/// one after the other at random positions with enough room. The result is reproducible. Counts above most_vesicles or
+/// above the volume of the region are refused before memory is allocated.
+/// @param one  with its table [suspension], which the result does not have
 Scene placed_suspension(const Scene& one, const TomlFile& file);
 
-/// Conditions of all vesicles together: each is outside all others, what is solved for all of them at once is possible,
-/// and the symmetry is there that the scene insists on.
+/// Checks all vesicles together: each is outside all others, the settings allow a common solve, and the symmetry that
+/// the scene requires is there.
 /// @param file  with its tables [[vesicle]]
 void check_vesicles(const Scene& scene, const TomlFile& file);
 
-/// Conditions of a scene with a wall: every membrane is on its side, and what is applied far away meets the conditions
-/// there.
+/// Checks a scene with a wall: every membrane is on its side, and the applied flow and field satisfy the conditions on
+/// the wall.
 /// @param file  with its tables [[vesicle]]
 void check_wall(const Scene& scene, const TomlFile& file);
 

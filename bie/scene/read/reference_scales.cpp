@@ -10,14 +10,14 @@ namespace {
 
 constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
-/// Values of a scene file in SI base units. What is absent is NaN, and so is what follows from it.
+/// Values of a scene file in SI base units. An absent value is NaN, and so is everything computed from it.
 class SiValues {
  public:
-  /// @param units  those that [units] gives
+  /// @param units  the scales that [units] gives
   SiValues(const TomlFile& file, const UnitsScene& units) : file_(file), units_(units) {}
 
   /// Magnitude of a number, length of a vector or of the longest row of a matrix.
-  /// @return NaN also if it is zero, or has a part other than zero without a unit
+  /// @return NaN also if it is zero, or if a component other than zero has no unit
   [[nodiscard]] double operator()(std::string_view table, std::string_view key) const {
     const KeyDescription* description = find_key(table, key);
     const toml::node* node = file_.table.at_path(table)[key].node();
@@ -31,7 +31,7 @@ class SiValues {
     const toml::array* array = node.as_array();
     if (array == nullptr || key.type == ValueType::number) {
       const auto si = si_number(key, node, file_.name, units_);
-      // A plain zero has every unit.
+      // A plain zero is valid in every unit.
       return std::abs(si.value_or(number_of(node) == 0.0 ? 0.0 : absent));
     }
     double length = 0.0, largest_row = 0.0;
@@ -53,7 +53,7 @@ class SiValues {
 
 std::optional<double> given(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
 
-/// In s; nullopt if the scene gives none.
+/// Shortest time of the scene, in s; nullopt if it gives none.
 /// @param units  with the reference length and viscosity
 std::optional<double> shortest_time(const SiValues& si, const UnitsScene& units, const TomlFile& file) {
   const double length = units.length.value_or(absent), viscosity = units.viscosity.value_or(absent);

@@ -20,17 +20,17 @@
 namespace vehd {
 namespace {
 
-/// Random places that are tried for each vesicle, and how many of those where only the shapes themselves can tell.
+/// Most random positions tried for each vesicle, and most of these that need a comparison of the shapes.
 constexpr int kTries = 20000, kExactTries = 500;
-/// Degree in which shapes are compared: they are placed, not computed with.
+/// Highest degree for comparing shapes, which is enough to place them.
 constexpr int kHighestOrder = 12;
 
-/// Numbers that are the same everywhere.
+/// Random numbers that are the same on every platform.
 class Random {
  public:
   explicit Random(int seed) : bits_(static_cast<std::uint64_t>(seed)) {}
 
-  /// In [−1, 1).
+  /// Uniform in [−1, 1).
   double number() { return static_cast<double>(bits_() >> 11) * 0x1p-52 - 1.0; }
   Vector3 in_cube() {
     const double x = number(), y = number(), z = number();
@@ -41,7 +41,7 @@ class Random {
     while (v.squaredNorm() > 1.0) v = in_cube();
     return v;
   }
-  /// Of equal density in all orientations.
+  /// Uniform over all orientations.
   Eigen::Quaterniond rotation() {
     for (;;) {
       const double w = number();
@@ -55,7 +55,7 @@ class Random {
   std::mt19937_64 bits_;
 };
 
-/// The shape that all have, about its origin.
+/// Common shape of the vesicles, about its origin.
 struct CopiedShape {
   Matrix position;  ///< without rotation
   double volume, radius, inner, outer;
@@ -160,7 +160,7 @@ class Placement {
     return std::nullopt;
   }
 
-  /// With the whole vesicle within the region.
+  /// Random centre with the whole vesicle inside the region.
   Vector3 random_centre() {
     const Vector3 centre = vector_of(wanted_.centre);
     if (!is_box()) return centre + (wanted_.radius - shape_.outer) * random_.in_ball();

@@ -59,7 +59,7 @@ class ValueReader {
     if (!number) refuse(node);
     if (!std::isfinite(*number)) refuse(node, fmt::format("is {}, not a finite number", *number));
     if (!key_.takes(*number)) refuse_value(node, *number);
-    // A negative zero is none: 1/0 has a sign.
+    // Turns −0 into 0: 1/0 has a sign.
     value = *number + 0.0;
   }
   void read(const toml::node& node, std::string& value) const {
@@ -101,7 +101,7 @@ class ValueReader {
     throw InputError(fmt::format("{}: {}", place(node, file_), problem));
   }
 
-  /// @param value  as read; what is in the range of the key has the wrong magnitude
+  /// @param value  as read; a value within the range of the key has the wrong magnitude
   [[noreturn]] void refuse_value(const toml::node& node, double value) const {
     if (!key_.range.contains(value)) refuse(node);
     const std::string magnitude = key_.unit == "time"
@@ -160,7 +160,7 @@ class ValueReader {
     return quantity->in_si(*unit, temperature);
   }
 
-  /// Dimensionless value of such a text.
+  /// Dimensionless value of a text such as "1 kV/cm".
   [[nodiscard]] double value_with_unit(const toml::value<std::string>& node) const {
     const Dimension* dimension = find_dimension(key_.unit);
     if (dimension == nullptr || !parse_quantity(node.get())) refuse(node);
@@ -177,7 +177,7 @@ class ValueReader {
              "scales in [units] whose powers a number can hold");
     }
     const double result = value / *scale;
-    // What is too small for a number would be 0, which is another statement.
+    // A value that underflows to 0 would have another meaning.
     if (value != 0.0 && result == 0.0) refuse_value(node, value);
     return result;
   }
@@ -187,7 +187,7 @@ class ValueReader {
   const std::optional<UnitsScene>& units_;
 };
 
-/// The parser limits nested values but builds a table for every part of a dotted key, whose destruction recurses.
+/// Limits the parts of dotted keys: the parser builds a table for every part, and their destruction recurses.
 /// @throws InputError at the first key with too many parts
 void require_short_keys(const std::string& text, const std::string& name) {
   constexpr int most_parts = 16;
@@ -217,7 +217,7 @@ void require_short_keys(const std::string& text, const std::string& name) {
 }  // namespace
 
 std::string text_of_toml_file(const std::filesystem::path& path, std::string_view what) {
-  // No sensible file comes near this; what does is some other file.
+  // No sensible file comes near this size.
   constexpr std::uintmax_t largest_bytes = 1 << 20;
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
@@ -258,7 +258,7 @@ const toml::node& TomlFile::node_of(std::string_view dotted, std::string_view ke
 
 std::optional<double> number_of(const toml::node& node) {
   if (const auto* value = node.as_floating_point()) return value->get();
-  // value<double>() of the library refuses what lies beyond 2^53.
+  // value<double>() of the library rejects integers beyond 2^53.
   if (const auto* value = node.as_integer()) return static_cast<double>(value->get());
   return std::nullopt;
 }

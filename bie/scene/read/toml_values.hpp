@@ -11,12 +11,12 @@
 #include "bie/scene/schema.hpp"
 #include "bie/support/errors.hpp"
 
-/// TOML files, and from their nodes to values of the key table.
+/// TOML files, and the conversion of their nodes to values of the key table.
 namespace vehd {
 
-/// Text of a TOML file as its author wrote it.
-/// @param what  it is, for messages: "a scene file"
-/// @throws InputError if it is missing, no file or far too long
+/// Unchanged text of a TOML file.
+/// @param what  kind of file, for messages: "a scene file"
+/// @throws InputError if it is missing, not a regular file or far too long
 std::string text_of_toml_file(const std::filesystem::path& path, std::string_view what);
 
 /// "file:line" of a node, or the option --set that gave it.
@@ -29,7 +29,7 @@ struct TomlFile {
 
   /// The table of a dotted name, or nullptr.
   [[nodiscard]] const toml::table* find(std::string_view dotted) const { return table.at_path(dotted).as_table(); }
-  /// The node of a key of a table, or that of the table.
+  /// The node of a key of a table, or of the table if the key is absent.
   [[nodiscard]] const toml::node& node_of(std::string_view dotted, std::string_view key) const;
 
   /// @throws InputError "file:line: problem"
@@ -38,8 +38,8 @@ struct TomlFile {
                            Arguments&&... arguments) const {
     throw InputError(place(node, name) + ": " + fmt::format(problem, std::forward<Arguments>(arguments)...));
   }
-  /// Throws InputError with the place of the key of a table, or of the table that lacks it.
-  /// @param dotted  of the scene, "electric.waveform" included; it exists
+  /// Throws InputError with the place of the key of a table, or of the table if the key is absent.
+  /// @param dotted  name of a table that exists, such as "electric.waveform"
   template <typename... Arguments>
   [[noreturn]] void refuse_key(std::string_view dotted, std::string_view key, fmt::format_string<Arguments...> problem,
                                Arguments&&... arguments) const {
@@ -51,16 +51,16 @@ struct TomlFile {
 /// @throws InputError "name:line: ..."
 TomlFile parse_toml(const std::string& text, const std::string& name);
 
-/// A number of any notation: an integer is the double nearest to it, as if it were written with a point.
+/// Value of a floating-point number or of an integer, which becomes the nearest double.
 /// @return nullopt if the node is no number
 std::optional<double> number_of(const toml::node& node);
 
-/// The value as written, cut to a readable length, with its type where that is not plain to see.
+/// The value as written, cut to a readable length, with its type if that is not obvious.
 std::string shown(const toml::node& node);
 
 /// SI value of a number with a unit, within the range of its key.
-/// @return nullopt of a plain number
-/// @throws InputError as checked_value does of anything else
+/// @return nullopt for a plain number
+/// @throws InputError for anything else, as checked_value does
 std::optional<double> si_number(const KeyDescription& key, const toml::node& node, const std::string& file,
                                 const std::optional<UnitsScene>& units);
 

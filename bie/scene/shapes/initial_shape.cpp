@@ -21,7 +21,7 @@ Vector3 direction(double theta, double phi) {
   return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
-/// Coefficients of Σ a Re Y_n^m, without modes above the degree, which trial runs of a lower one have.
+/// Coefficients of Σ a Re Y_n^m without modes above the degree, which occur in trial runs of a lower one.
 Vector sum_of_modes(const std::vector<HarmonicMode>& modes, int degree) {
   Vector coefficients = Vector::Zero(n_coefficients(degree));
   for (const HarmonicMode& mode : modes) {
@@ -43,7 +43,7 @@ Matrix ellipsoid_position(const Triple& axes, int order) {
 }
 
 Vector radius_on(const SphereTransform& of_shape, const ShapeScene& shape) {
-  // All modes count, in a trial run with a lower degree as well.
+  // All modes are included, in a trial run of a lower degree as well.
   int degree = of_shape.order();
   for (const HarmonicMode& mode : shape.modes) degree = std::max(degree, mode.n);
   const Vector s = SphereTransform(degree, of_shape.grid()).synthesize(sum_of_modes(shape.modes, degree)).col(0);
@@ -58,9 +58,9 @@ Matrix radial_position(const Scene& scene) {
       transform, [&](Index i, double theta, double phi) -> Vector3 { return radius(i) * direction(theta, phi); }));
 }
 
-/// x_s + t (x − x_s), x_s the sphere of the same area, with the t that gives the reduced volume. Its square root is
-/// nearly linear in t, √(1 − v) ∝ t.
-/// @return nullopt where there is none, or where a ray from the centre would meet the membrane twice
+/// x_s + t (x − x_s), x_s the sphere of the same area, with the t that gives the reduced volume v. t is found by the
+/// secant method for √(1 − v), which is nearly proportional to t.
+/// @return nullopt if there is no such t, or if a ray from the centre would meet the membrane twice
 std::optional<Matrix> with_reduced_volume(const Matrix& position, double reduced_volume) {
   constexpr int most_passes = 40;
   constexpr double rounding = 1e-13;  // of v
@@ -90,8 +90,8 @@ bool is_moved(const ShapeScene& shape) {
   return shape.reduced_volume && (shape.kind == ShapeKind::ellipsoid || shape.kind == ShapeKind::radial);
 }
 
-/// From numbers of a shape file to those of the scene. They are taken as they are where neither has the scale;
-/// check_scene refuses a scene for which that is not enough.
+/// Factor from numbers of a shape file to those of the scene, 1 if either lacks the scale. check_scene refuses a scene
+/// that needs the scale.
 double factor_from(const RunReader& run, const Scene& scene, std::optional<double> UnitsScene::*scale) {
   return conversion(units_of(run), scene.units, scale).value_or(1.0);
 }
@@ -125,7 +125,7 @@ double size_factor(const ShapeScene& shape, const Matrix& position) {
   return std::sqrt(*shape.area / (has_unit_size ? 4.0 * std::numbers::pi : size_of(position).area));
 }
 
-/// Between a degree and a grid on which a cap is sampled, whose spectrum falls like a Gaussian.
+/// Transform between a degree and a grid for sampling a cap, whose spectrum falls like a Gaussian.
 SphereTransform cap_transform(int order) { return {order, make_grid(2 * order + 32)}; }
 
 Vector cap_values(const PlaceScene& places, const SphereGrid& grid) {
@@ -174,7 +174,7 @@ Matrix initial_position(const Scene& scene) { return initial_membrane(scene).pos
 
 Extremes radius_extremes(const Scene& scene) {
   const Vector radius = radius_on(shape_transform(scene.numerics.order), scene.shape);
-  // minCoeff alone would skip a NaN.
+  // minCoeff would skip a NaN.
   if (radius.allFinite()) return {radius.minCoeff(), radius.maxCoeff()};
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   return {none, none};
@@ -210,7 +210,7 @@ MembraneMaterial initial_material(const Scene& scene) {
     if (membrane.pump) take(*membrane.pump, membrane.pump->current, material.pump_current);
   }
   if (membrane.bending_by_place || membrane.curvature_by_place) {
-    // The force needs both.
+    // The force needs both properties.
     const PlaceScene same{};
     take(membrane.bending_by_place.value_or(same), membrane.bending_modulus.value_or(0.0), material.bending_modulus);
     take(membrane.curvature_by_place.value_or(same), membrane.spontaneous_curvature, material.spontaneous_curvature);

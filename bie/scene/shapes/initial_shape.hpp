@@ -5,7 +5,7 @@
 #include "bie/scene/scene.hpp"
 #include "bie/support/types.hpp"
 
-/// The membrane at time 0 of a scene of one vesicle, placed and in units of the scene: coefficients of its degree.
+/// The membrane at time 0 of a scene of one vesicle, placed and in units of the scene: coefficients up to its degree.
 namespace vehd {
 
 struct InitialMembrane {
@@ -17,11 +17,11 @@ struct InitialMembrane {
 /// Accuracy: shapes are truncated to the order of the scene (tests/scene/initial_shape_test.cpp)
 InitialMembrane initial_membrane(const Scene& scene);
 
-/// The position of initial_membrane alone, [n_coefficients x 3].
+/// The position of initial_membrane, [n_coefficients x 3].
 Matrix initial_position(const Scene& scene);
 
-/// Is its reduced volume that of the scene, or none given? An ellipsoid or radial shape is moved towards a sphere or
-/// away from it until it is, which may fail.
+/// Does the shape have the reduced volume of the scene, if one is given? An ellipsoid or radial shape is moved towards
+/// a sphere or away from it to reach that volume, which may fail.
 bool has_reduced_volume(const Scene& scene);
 
 /// The snapshot with which a scene of [shape] kind "file" starts.
@@ -41,7 +41,7 @@ Extremes radius_extremes(const Scene& scene);
 /// Accuracy: harmonics exact, a cap to its truncation, see place_truncation
 Vector place_factor(const PlaceScene& places, int order);
 
-/// Largest error of a cap that is cut to a degree, over the difference of its two factors; 0 of harmonics.
+/// Largest truncation error of a cap, over the difference of its two factors; 0 for harmonics.
 double place_truncation(const PlaceScene& places, int order);
 
 /// The spatially varying properties, rotated with the shape.

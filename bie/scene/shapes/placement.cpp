@@ -15,7 +15,7 @@ namespace {
 
 /// Share of the largest coefficient below which a coefficient is rounding.
 constexpr double rounding = 1e-14;
-/// Area elements are no polynomials.
+/// Order of a grid for integrals: area elements are not polynomials.
 int fine_order(int order) { return std::max(4 * order, 128); }
 
 }  // namespace

@@ -4,14 +4,14 @@
 #include "bie/sphere/transform.hpp"
 #include "bie/support/types.hpp"
 
-/// Size, direction and place of a shape, on position coefficients [n_coefficients x 3].
+/// Size, orientation and position of a shape, on position coefficients [n_coefficients x 3].
 namespace vehd {
 
 /// Three numbers of a scene as a vector.
 inline Vector3 vector_of(const Triple& triple) { return {triple[0], triple[1], triple[2]}; }
 
-/// Between degree p and a grid to sample a shape on: shapes are no polynomials of bounded degree, and a grid this much
-/// finer keeps aliasing below the truncation.
+/// Transform between degree p and a grid for sampling shapes, which are not polynomials of bounded degree: a grid this
+/// much finer keeps aliasing below the truncation error.
 SphereTransform shape_transform(int order);
 
 /// Position coefficients, [n_coefficients x 3], of the shape that goes through point(i, θ, φ) at the nodes i of the
@@ -40,11 +40,11 @@ Vector rotated_scalar(const Vector& field, const Matrix3& rotation);
 /// The shape moved by a vector, [n_coefficients x 3].
 Matrix shifted(Matrix position, const Triple& by);
 
-/// Coefficients, [n_coefficients x n_fields], with zeros in place of rounding errors: symmetries are read off the
-/// coefficients.
+/// Coefficients, [n_coefficients x n_fields], with zeros in place of rounding errors, because symmetries are detected
+/// from the coefficients.
 Matrix without_rounding(const Matrix& coefficients);
 
-/// Area and volume of the shape by a rule that is fine enough to be exact for resolved shapes.
+/// Area and volume of the shape by a quadrature that is fine enough for resolved shapes.
 struct ShapeSize {
   double area = 0.0;
   double volume = 0.0;

@@ -9,7 +9,7 @@
 namespace vehd {
 namespace {
 
-/// Zero, to the last digit, of a function that rises through it once between lower and upper.
+/// Zero, to rounding, of a function that changes sign once between lower and upper, from − to +.
 template <typename Function>
 double rising_zero(const Function& function, double lower, double upper) {
   for (double middle = 0.5 * (lower + upper); middle > lower && middle < upper; middle = 0.5 * (lower + upper)) {
@@ -18,7 +18,7 @@ double rising_zero(const Function& function, double lower, double upper) {
   return 0.5 * (lower + upper);
 }
 
-/// From −1 to 1.
+/// Integral from −1 to 1.
 template <typename Function>
 double integral(const GaussLegendre& rule, const Function& function) {
   double sum = 0.0;
@@ -35,11 +35,11 @@ double spheroid_area(double c) {
   return 0.5 * (1.0 + cap / eccentricity);
 }
 
-/// @param sign  of the change of the reduced volume with c between these bounds
+/// @param sign  of the derivative of the reduced volume with respect to c between these bounds
 Triple spheroid_axes(double reduced_volume, double sign, double lower, double upper) {
-  // Near the sphere the volume is flat in c; only the exact sphere is left without an axis.
+  // The reduced volume is stationary in c at the sphere, where the search would be inaccurate.
   if (reduced_volume == 1.0) return {1.0, 1.0, 1.0};
-  // V/(4π/3) over (A/4π)^{3/2}: the volume against that of the sphere with the same area.
+  // V/(4π/3) over (A/4π)^{3/2} is the reduced volume.
   const auto excess = [&](double c) { return sign * (c / std::pow(spheroid_area(c), 1.5) - reduced_volume); };
   const double c = rising_zero(excess, lower, upper);
   const double a = 1.0 / std::sqrt(spheroid_area(c));
@@ -67,8 +67,8 @@ double bowl_area(double w, const GaussLegendre& rule) {
          });
 }
 
-/// Its volume over 4π/3. Between the inner and the outer wall at the angle α there is ((1 + w cos θ)³ − (1 − w cos
-/// θ)³)/3 per solid angle.
+/// Volume over 4π/3 of this stomatocyte. Between the inner and the outer wall at the angle α there is ((1 + w cos θ)³ −
+/// (1 − w cos θ)³)/3 per solid angle.
 double bowl_volume(double w, const GaussLegendre& rule) {
   return 0.25 * std::numbers::pi * integral(rule, [w](double node) {
            const double theta = 0.25 * std::numbers::pi * (1.0 + node);
@@ -85,7 +85,7 @@ Triple prolate_axes(double reduced_volume) { return spheroid_axes(reduced_volume
 Triple oblate_axes(double reduced_volume) { return spheroid_axes(reduced_volume, 1.0, 0.01, 1.0); }
 
 Matrix biconcave_position(double reduced_volume, int order) {
-  // The area is exact to rounding for every depth k.
+  // The area is accurate to rounding for every k.
   const GaussLegendre rule = gauss_legendre(256);
   const auto excess = [&](double k) { return reduced_volume - (0.5 - 0.3 * k) / std::pow(disc_area(k, rule), 1.5); };
   const double k = rising_zero(excess, 1.0 / 3.0, 1.0);
@@ -101,7 +101,7 @@ Matrix biconcave_position(double reduced_volume, int order) {
 }
 
 Matrix stomatocyte_position(double reduced_volume, int order) {
-  // Area and volume are exact to rounding, at the sharp rim of a thin wall as well.
+  // Area and volume are accurate to rounding, at the sharp rim of a thin wall as well.
   const GaussLegendre rule = gauss_legendre(512);
   constexpr double thinnest = 0.01, thickest = 0.6;
   const auto excess = [&](double w) {
