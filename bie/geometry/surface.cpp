@@ -11,7 +11,7 @@ namespace {
 
 Vector row_dot(const Matrix& a, const Matrix& b) { return a.cwiseProduct(b).rowwise().sum(); }
 
-/// A vector at one point. All that is known there follows in one pass over the points, a register of them at a time.
+/// A vector at one point: make_surface computes all fields in one vectorised loop over the points.
 struct At {
   double x, y, z;
 };

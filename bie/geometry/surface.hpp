@@ -5,7 +5,7 @@
 
 namespace vehd {
 
-/// Closed surface x(θ, φ) sampled on one grid, with everything that its first two derivatives determine.
+/// Closed surface x(θ, φ) sampled on one grid, with the fields that its first and second derivatives determine.
 /// Immutable. All arrays have one row per grid point; vectors are [n_points x 3]. Frame index 1 is e_θ, 2 is e_φ of
 /// the unit sphere (so no entry is singular at the poles).
 /// The normal points from the interior to the exterior if x(θ, φ) keeps the orientation of the unit sphere.
@@ -29,11 +29,11 @@ struct Surface {
 /// Surface from coefficients of x on the transform's grid.
 /// @param position_coefficients  [n_coefficients x 3]
 /// @throws ShapeError unless there are three columns
-/// Accuracy: rounding for the x of degree p that is given; H and K of a 2:1 prolate to 1e-12, J to 1e-13
+/// Accuracy: rounding for an x of degree p; H and K of a 2:1 prolate to 1e-12, J to 1e-13
 /// (tests/geometry/curvature_test.cpp)
 Surface make_surface(const SphereTransform& transform, const Matrix& position_coefficients);
 
-/// J = W/sin θ alone, [n_points], which first derivatives determine.
+/// J = W/sin θ only, [n_points], from first derivatives.
 /// @param position_coefficients  [n_coefficients x 3]
 /// @throws ShapeError unless there are three columns
 /// Accuracy: that of make_surface, to rounding (tests/geometry/curvature_test.cpp)
@@ -62,7 +62,7 @@ double surface_area(const Surface& surface);
 Vector3 surface_mean(const Surface& surface, const Matrix& values);
 /// Centroid of the surface, ∫x dA / ∫dA.
 Vector3 centroid(const Surface& surface);
-/// Largest less smallest distance of the grid points from the centroid: rounding on a sphere, wherever its points are.
+/// Largest minus smallest distance of the grid points from the centroid: zero to rounding on any grid of a sphere.
 double distance_variation(const Surface& surface);
 /// ∫ x·n dA / 3.
 /// Accuracy: spectral; of a 2:1 prolate to 1e-13 (tests/geometry/curvature_test.cpp)

@@ -10,9 +10,9 @@
 
 namespace vehd {
 
-/// Replaces each number s by 1/√s. Where the processor has an estimate to 14 bits two Newton steps,
-/// y ← y + y (½ − ½ s y²), make it one to 53 in a third of the time that a root and a division take.
-/// @param squares  > 0, as many as instructions handle together: two, four or eight
+/// Replaces each number s by 1/√s. With AVX-512, two Newton steps y ← y + y (½ − ½ s y²) refine the processor's
+/// estimate from 14 to 53 bits, in a third of the time of a square root and a division.
+/// @param squares  > 0; two, four or eight numbers, which one instruction handles together
 /// Accuracy: two units in the last place (tests/potentials/inverse_roots_test.cpp)
 template <std::size_t kCount>
 void invert_roots(std::array<double, kCount>& squares) {

@@ -3,7 +3,7 @@
 #include <numbers>
 
 /// Pointwise Laplace kernels, r = x − y (target minus source). No quadrature, no area element. Real is a number or an
-/// array of those for several nodes.
+/// array with one number for each of several nodes.
 namespace vehd {
 
 /// Prefactor of G = 1/(4π|r|) and of its derivatives.
@@ -20,7 +20,7 @@ Real laplace_single_kernel(const Real& inverse_r) {
 }
 
 /// ∂G/∂n(y) without prefactor: r·n(y)/|r|³, Eq. (9).
-/// @param r_dot_source_normal  r·n(y), or r·J n(y) where the area element is to be in the kernel; its units come out
+/// @param r_dot_source_normal  r·n(y), or r·J n(y) to include the area element, with its unit, in the kernel
 /// Accuracy: rounding
 /// Source: paper Eq. (9)
 template <class Real>
@@ -37,7 +37,7 @@ Real laplace_adjoint_kernel(const Real& r_dot_target_normal, const Real& inverse
   return -r_dot_target_normal * inverse_r * inverse_r * inverse_r;
 }
 
-/// ∂²G/∂n(x)∂n(y) without prefactor: n(x)·n(y)/|r|³ − 3 r·n(x) r·n(y)/|r|⁵; of a normal the area vector J n may stand.
+/// ∂²G/∂n(x)∂n(y) without prefactor: n(x)·n(y)/|r|³ − 3 r·n(x) r·n(y)/|r|⁵; either n may be replaced by J n.
 /// @param normals  n(x)·n(y)
 /// Accuracy: rounding
 /// Source: paper Eq. (10), second part

@@ -4,16 +4,16 @@
 
 #include "bie/support/types.hpp"
 
-/// Images of Stokes kernels in a plane without slip, seen from the mirror image X of a target: s = X − y, and the flow
-/// at the target is the mirror image of what is given here. The target is `height` above the plane, so the source is at
-/// h = −(height + n·s) above it; both heights are ≤ |s|, and nothing is more singular than the free kernel. Pointwise,
-/// no quadrature. Real is a number or an array of those for several nodes.
+/// Images of Stokes kernels in a no-slip plane, evaluated at the mirror image X of a target: s = X − y, and the flow at
+/// the target is the mirror image of the flow computed here. The target is `height` above the plane and the source h =
+/// −(height + n·s). Both heights are ≤ |s|, so that no term is more singular than the free kernel. Pointwise, no
+/// quadrature. Real is a number or an array with one number for each of several nodes.
 namespace vehd {
 
-/// A target beyond the plane, as the mirror shows it.
+/// A target, given by its mirror image X.
 struct MirroredTarget {
   Vector3 normal;  ///< of the plane, unit
-  double height;   ///< of the target above the plane, which X is as far beyond
+  double height;   ///< of the target above the plane; X is as far below it
 };
 
 /// Image of a point force f, prefactor that of the Stokes single layer:
@@ -37,10 +37,10 @@ std::array<Real, 3> no_slip_flow(const MirroredTarget& target, const Real& sx, c
 
 /// Image of the kernel of the Stokes double layer for a velocity v, prefactor that of the layer. With a normal or area
 /// vector a at the source and Q = (v aᵀ + a vᵀ)/2 it is
-///   −4zh Qs/s⁵ + [(10zh/s² − 1) s·Qs + 2z² tr Q] s/s⁵ − 2h s·Qs n/s⁵,
-/// which like the free kernel is zero outside a closed surface for a constant v.
+///   −4zh Qs/s⁵ + [(10zh/s² − 1) s·Qs + 2z² tr Q] s/s⁵ − 2h s·Qs n/s⁵.
+/// For a constant v its integral over a closed surface is zero outside, as that of the free kernel.
 /// Accuracy: rounding (tests/potentials/no_slip_test.cpp)
-/// Source: no_slip_flow differentiated at the source, with the image of a source of fluid
+/// Source: no_slip_flow differentiated with respect to the source point, plus the image of a source of fluid
 template <class Real>
 std::array<Real, 3> no_slip_double_flow(const MirroredTarget& target, const Real& sx, const Real& sy, const Real& sz,
                                         const Real& inverse, const Real& ax, const Real& ay, const Real& az,
@@ -50,7 +50,7 @@ std::array<Real, 3> no_slip_double_flow(const MirroredTarget& target, const Real
   const Real h = -(z + sx * n[0] + sy * n[1] + sz * n[2]);
   const Real inverse2 = inverse * inverse, inverse5 = inverse2 * inverse2 * inverse;
   const Real sv = sx * vx + sy * vy + sz * vz, sa = sx * ax + sy * ay + sz * az, both = sv * sa;
-  const Real of_q = -2.0 * z * h * inverse5;  // half of it, as Qs is ½ (sa v + sv a)
+  const Real of_q = -2.0 * z * h * inverse5;  // half of −4zh/s⁵, because Qs = ½ (sa v + sv a)
   const Real of_s = inverse5 * ((10.0 * z * h * inverse2 - 1.0) * both + 2.0 * z * z * (ax * vx + ay * vy + az * vz));
   const Real of_n = -2.0 * h * both * inverse5;
   return {of_q * (sa * vx + sv * ax) + of_s * sx + of_n * n[0], of_q * (sa * vy + sv * ay) + of_s * sy + of_n * n[1],

@@ -4,7 +4,7 @@
 #include <numbers>
 
 /// Pointwise Stokes kernels, r = x − y (target minus source). No quadrature, no area element. Real is a number or an
-/// array of those for several nodes.
+/// array with one number for each of several nodes.
 namespace vehd {
 
 /// 1/(8πμ).
@@ -12,12 +12,12 @@ namespace vehd {
 /// Source: paper Eq. (6)
 constexpr double stokes_single_layer_prefactor(double viscosity) { return 1.0 / (8.0 * std::numbers::pi * viscosity); }
 
-/// Which of the blocks xx, xy, xz, yy, yz, zz of a symmetric kernel takes component j to component i.
+/// Index of the entry (i, j) of a symmetric kernel in its upper triangle xx, xy, xz, yy, yz, zz.
 constexpr int kStokesBlock[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
 
 /// Upper triangle xx, xy, xz, yy, yz, zz of δ_ij/|r| + r_i r_j/|r|³, Eq. (6) without prefactor.
 /// @param inverse_r  1/|r|
-/// Accuracy: rounding; the layer that is made of it has the eigenvalues of the sphere to 1e-11
+/// Accuracy: rounding; its single layer has the eigenvalues of the sphere to 1e-11
 /// (tests/potentials/stokes_sphere_test.cpp)
 /// Source: paper Eq. (6)
 template <class Real>
@@ -44,11 +44,11 @@ constexpr double kStokesDoubleLayerPrefactor = 3.0 / (4.0 * std::numbers::pi);
 /// same jumps as the Laplace double layer. For a rigid motion v = a + b × y
 ///   D[v] = −v inside, −½ v on the surface (principal value), 0 outside,
 /// and D[v] of any v jumps by −v from outside to inside. A flow with velocity u and traction t = σ·n on the surface has
-///   u = S[t]/μ − D[u] inside (½u on the surface), and with decay u = D[u] − S[t]/μ outside.
+///   u = S[t]/μ − D[u] inside (½u on the surface), or u = D[u] − S[t]/μ outside if it decays.
 /// As r·n(y) = O(|r|²) for smooth surfaces, the kernel is O(1/|r|).
 /// @param r_dot_source_normal  r·n(y), or r·J n(y)
 /// @param inverse_r            1/|r|
-/// Accuracy: rounding; the layer that is made of it has the eigenvalues of the sphere to 1e-11
+/// Accuracy: rounding; its double layer has the eigenvalues of the sphere to 1e-11
 /// (tests/potentials/stokes_sphere_test.cpp)
 /// Source: Pozrikidis 1992
 template <class Real>

@@ -25,7 +25,7 @@ bool RecycledGcr::add_direction(const Vector& proposal, double allowed) {
   Direction direction{proposal, map_(proposal), {}, Vector::Unit(n + 1, n)};
   direction.image = preconditioned(direction.mapped);
   const double rounding = thresholds::map_rounding * std::max(proposal.norm(), direction.image.norm());
-  // Twice is enough to be orthogonal to rounding.
+  // Two passes of modified Gram–Schmidt give orthogonality to rounding.
   for (int pass = 0; pass < 2; ++pass) {
     for (const Direction& former : directions_) {
       const double share = direction.image.dot(former.image);
@@ -90,8 +90,8 @@ RecycledGcr::Solution RecycledGcr::solve(const Vector& rhs, const Vector& start,
   }
   const double wanted = options.tolerance * scale;
   int& iterations = solution.report.iterations;
-  double seen = std::numeric_limits<double>::infinity();  // true residual at the last look
-  bool own = directions_.empty();                         // no direction is older than this solve
+  double seen = std::numeric_limits<double>::infinity();  // true residual when last computed
+  bool own = directions_.empty();                         // all directions were found in this solve
   double allowed = thresholds::most_uncertain_direction;
   double size = 0.0;
   for (;;) {
@@ -104,8 +104,8 @@ RecycledGcr::Solution RecycledGcr::solve(const Vector& rhs, const Vector& start,
     ++iterations;
     size = iterate.size();
     if (size <= wanted) break;
-    // Where a look finds no gain since the last one, the directions misled the search; where they were all found by
-    // this search, it has come to what rounding leaves.
+    // If the true residual has not halved since it was last computed, rounding has spoilt the directions: search again
+    // without them and with a tighter bound. If that fails as well, only rounding is left in the residual.
     const bool gained = size < thresholds::gain_between_looks * seen;
     if (!gained && own && allowed == thresholds::most_uncertain_after_misleading) break;
     seen = size;
@@ -129,7 +129,7 @@ RecycledGcr::Solution RecycledGcr::solve(const Vector& rhs, const Vector& start,
 void RecycledGcr::search(double wanted, int most, double allowed, Iterate& iterate, int& iterations) {
   bool is_known = false;
   double share = 1.0;
-  // Not (size > …): a residual that is not a number ends the solve as well.
+  // A residual that is not finite ends the search as well.
   while (!(iterate.size() <= wanted) && iterate.residual.allFinite() && iterations < most) {
     const bool misled = is_known && share < thresholds::least_share_of_recycled;
     const bool stagnates = !is_known && share < thresholds::least_share_of_residual;

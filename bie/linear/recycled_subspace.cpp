@@ -29,7 +29,7 @@ RecycledSubspace selected(const RecycledSubspace& known, const std::vector<Index
 SecantInverse::SecantInverse(const RecycledSubspace& known) {
   Matrix gram = Matrix::Zero(known.count(), known.count());
   gram.selfadjointView<Eigen::Lower>().rankUpdate(known.responses.transpose());
-  // Cholesky's factorisation, with a row more for every column that is independent of those before it.
+  // Cholesky factorisation: each column that is independent of those before it adds a row.
   constexpr double least = thresholds::least_independence;
   factor_ = Matrix::Zero(known.count(), known.count());
   std::vector<double> scale;

@@ -10,7 +10,7 @@ namespace vehd {
 /// x ↦ A x.
 using LinearMap = std::function<Vector(const Vector&)>;
 
-/// When a solve is done, and when it gives up.
+/// Stopping criteria of a solve.
 struct SolveOptions {
   double tolerance = 1e-10;  ///< of the preconditioned residual relative to the preconditioned right-hand side
   int max_iterations = 100;
@@ -20,11 +20,11 @@ struct SolveOptions {
 enum class SolveEnd {
   converged,
   out_of_iterations,
-  stagnated,  ///< no direction lowers the residual any more: rounding is all that is left, or the map is singular
+  stagnated,  ///< no direction lowers the residual: only rounding is left, or the map is singular
   not_finite
 };
 
-/// How a solve ended. `residual` is a bound of the true one, relative, in the norm of SolveOptions::tolerance.
+/// Outcome of a solve. `residual` bounds the true relative residual, in the norm of SolveOptions::tolerance.
 struct SolveReport {
   SolveEnd end = SolveEnd::stagnated;
   int iterations = 0;
@@ -36,7 +36,7 @@ struct SolveReport {
 /// "converged", "out of iterations", …
 std::string text_of(SolveEnd end);
 
-/// @throws ConvergenceError "WHAT: REASON, relative residual ... after ... iterations" unless the report says converged
+/// @throws ConvergenceError unless the solve converged, with `what`, the reason, the residual and the iterations
 void require_converged(const SolveReport& report, const std::string& what);
 
 }  // namespace vehd

@@ -8,18 +8,18 @@
 
 namespace vehd {
 
-/// The unknowns of a solver, stacked in one vector: the coefficients of the fields of several bodies that can differ
-/// from zero. A field has one or more columns: the parts of a complex scalar, the components of a vector.
+/// Stacks the unknowns of a solver in one vector: those coefficients of the fields of several bodies that can be
+/// nonzero. A field has one or more columns: real and imaginary part of a complex scalar, or components of a vector.
 class StackedEntries {
  public:
-  /// One more field, [n_rows x n_columns].
-  /// @param entries  positions of those in the column-major field, ascending
+  /// Adds a field, [n_rows x n_columns].
+  /// @param entries  positions in the column-major field of the entries that can be nonzero, ascending
   void add(Index n_rows, Index n_columns, std::vector<Index> entries) {
     const Index first = size_;
     size_ += std::ssize(entries);
     fields_.push_back({n_rows, n_columns, first, std::move(entries)});
   }
-  /// Adds a field whose entries can all differ from zero.
+  /// Adds a field whose entries can all be nonzero.
   void add(Index n_rows, Index n_columns) {
     std::vector<Index> all(static_cast<std::size_t>(n_rows * n_columns));
     std::iota(all.begin(), all.end(), Index{0});
@@ -28,7 +28,7 @@ class StackedEntries {
 
   /// Number of entries of all fields.
   [[nodiscard]] Index size() const { return size_; }
-  /// Row of the first entry of a field.
+  /// Position in the stacked vector of the first entry of a field.
   [[nodiscard]] Index first(std::size_t field) const { return fields_[field].first; }
 
   /// The entries of all fields, [size()].
@@ -44,7 +44,7 @@ class StackedEntries {
   }
 
   /// The fields, [n_rows x n_columns] each, from their entries, [size()]; zero elsewhere.
-  /// @tparam Field  Matrix, or Vector where all have one column
+  /// @tparam Field  Matrix, or Vector if all have one column
   template <typename Field>
   [[nodiscard]] std::vector<Field> fields(const Vector& stacked) const {
     std::vector<Field> result;
@@ -55,7 +55,7 @@ class StackedEntries {
     return result;
   }
 
-  /// [size()], one number a field, repeated at all of its entries.
+  /// Vector of length size() that holds the number of each field at all entries of the field.
   [[nodiscard]] Vector spread(const std::vector<double>& numbers) const {
     Vector result(size_);
     for (std::size_t a = 0; a < fields_.size(); ++a) {

@@ -17,7 +17,7 @@ using ComplexField = FieldOf<Complex>;
 
 double angular_frequency(double frequency) { return 2.0 * std::numbers::pi * frequency; }
 
-/// a = y and k = K, no charge being given.
+/// Law with a = y, k = K and no given charge.
 CurrentLaw<Complex> law_of_amplitudes(const ChargingMembrane& of) {
   const auto& [electric, membrane] = of.in_field;
   const double omega = angular_frequency(*electric.averaged_frequency);
@@ -28,7 +28,7 @@ CurrentLaw<Complex> law_of_amplitudes(const ChargingMembrane& of) {
   return {from_parts<Complex>(admittance), k.inside, k.outside, none, none};
 }
 
-/// Beside a fluid that insulates no current flows and V_m is zero: the charge is that of dc.
+/// If a fluid insulates, no current flows and V_m is zero: the charge is that of a constant field.
 TracesOf<Complex> insulated_traces(const ElectricMembrane& of, double tolerance, SolveReport& report) {
   const auto& [electric, membrane] = of;
   const Vector none = Vector::Zero(n_coefficients(membrane.fine.order()));
@@ -94,7 +94,7 @@ SphereInAcField sphere_in_ac_field(const ElectricParameters& electric, const Cha
                                    double radius) {
   const ComplexConductivities k = complex_conductivities(electric);
   const std::complex<double> through = radius * membrane_admittance(charging, *electric.averaged_frequency);
-  // Divided by K_e nowhere, so that the fluid outside may insulate.
+  // Nothing is divided by K_e, which is zero if the fluid outside insulates.
   const std::complex<double> divisor = 2.0 * k.outside + k.inside + 2.0 * k.inside * k.outside / through;
   SphereInAcField sphere;
   sphere.inside = 3.0 * k.outside / divisor;

@@ -37,7 +37,7 @@ Vector current_through(const Membrane& membrane, const MembraneCurrent& current,
 
 namespace {
 
-/// The equation of one membrane, weighted by J and divided by the mean of |a| + |κ|/R. Coefficients of degree p.
+/// The equation of one membrane, weighted by J and divided by |mean of a| + |κ|/R. Coefficients of degree p.
 template <typename Scalar>
 class LawEquation {
  public:
@@ -52,11 +52,11 @@ class LawEquation {
     conduction_ = law.series() / size_;
   }
 
-  /// κ over the size.
+  /// κ over that divisor.
   [[nodiscard]] Scalar conduction() const { return conduction_; }
   [[nodiscard]] bool stores() const { return storage_ != 0.0; }
 
-  /// What V does on its own membrane.
+  /// Left side without the terms of other membranes.
   [[nodiscard]] Field own(const Field& potential) const {
     Field result = Field::Zero(potential.size());
     Scalar mean = potential[0];
@@ -72,7 +72,7 @@ class LawEquation {
     return result;
   }
 
-  /// Inverse of `own` on the sphere of the same area with the mean of a.
+  /// Inverse of `own` on the sphere of the same area, with the mean of a in place of a.
   [[nodiscard]] Field sphere_inverse(const Field& residual) const {
     const double radius = membrane_.radius;
     Field result(residual.size());
@@ -87,7 +87,7 @@ class LawEquation {
     return result;
   }
 
-  /// Of the field and of what the faces hold.
+  /// Terms of the applied field and of s_i and s_e.
   [[nodiscard]] Field right_side() const {
     Field rhs = conduction_ * coefficients_of<Scalar>(membrane_, applied_flux<Scalar>(of_));
     const Field uneven = law_.share_in() * law_.s_in - law_.share_out() * law_.s_out;
@@ -98,12 +98,12 @@ class LawEquation {
     return rhs;
   }
 
-  /// J (E_e − E_i) for s = 0; empty where it is zero.
+  /// J (E_e − E_i) for s = 0; empty if it is zero.
   [[nodiscard]] Field weighted_jump_of(const Field& potential) const {
     if (law_.contrast() == 0.0 || !stores()) return {};
     return weighted<Scalar>(membrane_, (law_.contrast() / law_.series()) * of_potential(potential));
   }
-  /// J (E_e − E_i) for V = 0; empty where it is zero.
+  /// J (E_e − E_i) for V = 0; empty if it is zero.
   [[nodiscard]] Field weighted_jump_given() const {
     const Field given = given_jump();
     if (given.isZero(0.0)) return {};
@@ -228,7 +228,7 @@ class StackedPotentials {
 
  private:
   StackedEntries entries_;
-  Vector radius_;  // of each entry
+  Vector radius_;  // R of each entry
 };
 
 }  // namespace
@@ -244,7 +244,7 @@ template <typename Scalar>
 SolveReport solve_laws(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction,
                        const std::vector<CurrentLaw<Scalar>>& laws, double tolerance,
                        std::vector<FieldOf<Scalar>>& potentials) {
-  // The inverse on a sphere knows the mean of a alone, which may take twice as many iterations.
+  // The preconditioner contains only the mean of a: a varying a can take twice as many iterations.
   constexpr int kMostIterations = 120;
   const LawEquations<Scalar> equations(membranes, interaction, laws);
   const StackedPotentials<Scalar> stacked(membranes);
@@ -275,11 +275,11 @@ template SolveReport solve_laws(const std::vector<ChargingMembrane>&, const Inte
 
 namespace {
 
-/// What the layers of all other membranes do to one; empty without others.
+/// Contributions of the layers of all other membranes to one; empty without others.
 template <typename Scalar>
 struct OfOthers {
-  FieldOf<Scalar> flux;       // J n·∇ of their double layers less their single layers, coefficients
-  FieldOf<Scalar> potential;  // of their single layers less their double layers, coefficients
+  FieldOf<Scalar> flux;       // J n·∇ of their double layers minus their single layers, coefficients
+  FieldOf<Scalar> potential;  // of their single layers minus their double layers, coefficients
 };
 
 template <typename Scalar>
@@ -298,7 +298,7 @@ std::vector<OfOthers<Scalar>> layers_of_others(const Interaction& interaction,
   return result;
 }
 
-/// @param weighted_jump  J (E_e − E_i), coefficients; empty where it is zero
+/// @param weighted_jump  J (E_e − E_i), coefficients; empty if it is zero
 template <typename Scalar>
 TracesOf<Scalar> traces_of(const ElectricMembrane& of, const CurrentLaw<Scalar>& law, const FieldOf<Scalar>& potential,
                            const FieldOf<Scalar>& weighted_jump, const OfOthers<Scalar>& others) {

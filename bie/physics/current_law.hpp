@@ -9,7 +9,7 @@
 
 namespace vehd {
 
-/// A membrane in a field that charges.
+/// A charging membrane in a field.
 struct ChargingMembrane {
   ElectricMembrane in_field;
   ChargingParameters charging;
@@ -29,7 +29,7 @@ struct MembraneCurrent {
 /// The current (G_m + g(s)) V + J_p of a membrane.
 /// @param poration  s of a membrane that porates, coefficients [n_coefficients]; empty: the intact membrane
 MembraneCurrent membrane_current(const ChargingMembrane& of, const Vector& poration = {});
-/// The current under a V, values on the upsampled grid, [n_points].
+/// The current at a given V, values on the upsampled grid, [n_points].
 /// @param potential  V, coefficients [n_coefficients]
 Vector current_through(const Membrane& membrane, const MembraneCurrent& current, const Vector& potential);
 
@@ -37,8 +37,8 @@ Vector current_through(const Membrane& membrane, const MembraneCurrent& current,
 /// outside, with E_k = −∂φ_k/∂n. Values on the upsampled grid, [n_points]; complex for amplitudes.
 template <typename Scalar>
 struct CurrentLaw {
-  FieldOf<Scalar> a;               ///< real ones are ≥ 0
-  Scalar k_in = 1.0, k_out = 1.0;  ///< of the fluids: what conducts, or is displaced; not both zero
+  FieldOf<Scalar> a;               ///< ≥ 0 if real
+  Scalar k_in = 1.0, k_out = 1.0;  ///< of the fluids, from σ, ε or both; not both zero
   FieldOf<Scalar> s_in, s_out;
 
   /// w_k = κ/k_k.
@@ -55,26 +55,25 @@ template <typename Scalar>
 struct FieldsAtFaces {
   FieldOf<Scalar> in, out;
 };
-/// Both fields for a V.
+/// Both fields for a given V.
 /// @param potential  V, coefficients [n_coefficients]
 template <typename Scalar>
 FieldsAtFaces<Scalar> fields_of(const CurrentLaw<Scalar>& law, const Membrane& membrane,
                                 const FieldOf<Scalar>& potential);
 
-/// Solves for V of all membranes with both fields given by V,
+/// Solves for V of all membranes, with both fields functions of V,
 ///   ½(E_i + E_e)_a + Σ_b S′_ab[(E_e − E_i)_b] − Σ_b D′_ab[V_b] = E·n on every membrane a,
-/// times κ = k_i k_e/(k_i + k_e), so that either k may be zero. With η = (k_i − k_e)/(k_i + k_e) that is, of one
-/// membrane,
+/// multiplied by κ = k_i k_e/(k_i + k_e), so that either k may be zero. For one membrane and η = (k_i − k_e)/(k_i +
+/// k_e) this is
 ///   (½ + ηS′)aV − κD′[V] = κE·n + ½(w_i s_i − w_e s_e) − S′[w_i s_i + w_e s_e],  w_k = κ/k_k.
-/// No net current leaves a membrane: degree 0 holds ∫(aV − s_i) dA = 0, and where a = 0 that V has no mean. The
-/// unknowns are V/R, what a field of one size makes of membranes of any size; each equation is divided by the mean of
-/// a + κ/R and preconditioned with its inverse on a sphere.
+/// No net current leaves a membrane: the equation of degree 0 is ∫(aV − s_i) dA = 0, or zero mean of V if a = 0. The
+/// unknowns are V/R, which are of equal size on membranes of any size in one field. Each equation is divided by |mean
+/// of a| + |κ|/R and preconditioned with its inverse on a sphere.
 ///
-/// Collective where membranes are those of several ranks, see Interaction; all ranks get the potentials of all.
+/// Collective if the membranes belong to several ranks, see Interaction; all ranks receive all potentials.
 /// @param potentials   coefficients [n_coefficients]; first guesses on input, V of each on output
 /// @param tolerance    of the preconditioned residual, relative
-/// @throws InputError  if one of several membranes that charges lies between fluids of which one insulates: the
-///     charge is not known from V there
+/// @throws InputError  if one of several membranes has a ≠ 0 and a zero k: V does not determine its charge
 /// Accuracy: that of the layers (tests/physics/charging_test.cpp, tests/physics/charge_density_test.cpp)
 /// Source: paper Eqs. (12)–(14), (29), (30), without the inverse; docs/theory/electric.md
 template <typename Scalar>
@@ -82,10 +81,10 @@ SolveReport solve_laws(const std::vector<ChargingMembrane>& membranes, const Int
                        const std::vector<CurrentLaw<Scalar>>& laws, double tolerance,
                        std::vector<FieldOf<Scalar>>& potentials);
 
-/// The traces that go with the V of solve_laws. The mean of both fields is found from the layers, which smooth: free of
-/// the truncation that aV − s_i would magnify; the jump of the fields follows from k_e E_e − k_i E_i = s_i + s_e.
-/// Neither k may be zero.
-/// @return  those of membranes of other ranks are empty
+/// Traces for the V of solve_laws. The mean of both fields is evaluated from the layers, which smooth, because aV − s_i
+/// would amplify truncation errors; the jump of the fields follows from k_e E_e − k_i E_i = s_i + s_e. Neither k may be
+/// zero.
+/// @return  traces of each membrane, empty for those of other ranks
 /// Source: paper Eqs. (7), (11), (13)
 template <typename Scalar>
 std::vector<TracesOf<Scalar>> traces_of_laws(const std::vector<ChargingMembrane>& membranes,

@@ -95,7 +95,7 @@ Vector second_kind_sphere_inverse(double eta, const Vector& weighted) {
   Vector result(weighted.size());
   for (int n = 0; n <= order_of(weighted.size()); ++n) {
     double eigenvalue = n == 0 ? 0.5 * (1.0 - eta) : 0.5 - eta / (2.0 * (2.0 * n + 1.0));
-    // At η = 1 the mean of the density is free and the right-hand side has none: any number but zero will do.
+    // At η = 1 the mean of the density is free and that of the right-hand side zero: any nonzero number will do.
     if (n == 0 && eta >= 1.0) eigenvalue = 1.0;
     const Index first = coefficient_index(n, -n), count = 2 * n + 1;
     result.segment(first, count) = weighted.segment(first, count) / eigenvalue;
@@ -103,8 +103,7 @@ Vector second_kind_sphere_inverse(double eta, const Vector& weighted) {
   return result;
 }
 
-/// Coefficients of a right-hand side of Eq. (12) on which second_kind_operator can act: a mean that is rounding is
-/// zero.
+/// Coefficients of a right-hand side of Eq. (12); a mean that is only rounding is set to zero.
 /// @param weighted_values  J rhs on the upsampled grid
 Vector second_kind_right_side(const Membrane& membrane, const Vector& weighted_values) {
   Vector rhs = membrane.fine.analyze(weighted_values);
@@ -114,7 +113,7 @@ Vector second_kind_right_side(const Membrane& membrane, const Vector& weighted_v
   return rhs;
 }
 
-/// η_b times each density; empty where that is zero.
+/// η_b times each density; empty if η_b is zero.
 std::vector<Vector> charges_of(const std::vector<double>& contrasts, const std::vector<Vector>& weighted) {
   std::vector<Vector> charges;
   for (std::size_t b = 0; b < contrasts.size(); ++b) {
@@ -146,13 +145,13 @@ class DensityEquations {
     scale_ = entries_.spread(areas);
   }
 
-  /// Σ_b η_b S′_ab of a ≠ b; empty where there are no others.
+  /// Weighted Σ_{b≠a} η_b S′_ab[g_b] on each membrane a; empty without others.
   [[nodiscard]] std::vector<Vector> fluxes_of_others(const std::vector<Vector>& weighted) const {
     if (interaction_.is_empty()) return std::vector<Vector>(membranes_.size());
     return interaction_.weighted_single_flux(charges_of(contrasts_, weighted));
   }
 
-  /// J g of all, coefficients.
+  /// Solves for J g of all membranes, coefficients.
   SolveReport solve(const std::vector<Vector>& weighted_rhs, double tolerance, std::vector<Vector>& weighted) const {
     std::vector<Vector> right_sides(membranes_.size());
     for (const std::size_t a : owned_) right_sides[a] = second_kind_right_side(*membranes_[a], weighted_rhs[a]);

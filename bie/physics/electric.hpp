@@ -10,7 +10,7 @@
 
 namespace vehd {
 
-/// One membrane in a field. Of several the parameters outside are those of all.
+/// One membrane in a field. Several membranes have the same parameters outside.
 struct ElectricMembrane {
   ElectricParameters electric;
   const Membrane& membrane;
@@ -22,8 +22,8 @@ double conductivity_contrast(const ElectricParameters& electric);
 /// σ_i σ_e/(σ_i + σ_e), the prefactor of Eq. (14).
 /// Source: paper Eqs. (14), (29)
 double series_conductivity(const ElectricParameters& electric);
-/// Is q other than zero anywhere? Not between fluids of equal conductivity, and of equal permittivity where that counts
-/// in an averaged field. Charge that relaxes in time may be anything.
+/// Can q be nonzero? Always if charge relaxes in time; otherwise only if the conductivities differ or, in an averaged
+/// field with displacement currents, the permittivities.
 bool carries_charge(const ElectricParameters& electric);
 
 /// J D′[V] of Eq. (24): J (n×∇_γ)·S[n×∇_γ V], values on the upsampled grid, [n_points]. Both rotated gradients are
@@ -44,8 +44,7 @@ struct SecondKindSolution {
   SolveReport report;
 };
 
-/// Traces of the potential and of its normal derivative on both sides, on the upsampled grid;
-/// complex of amplitudes.
+/// Traces of the potential and of its normal derivative on both sides; complex for amplitudes.
 template <typename Scalar>
 struct TracesOf {
   FieldOf<Scalar> potential_in, potential_out;  ///< coefficients of degree p of φ_i, φ_e, Eq. (11a, b)
@@ -72,13 +71,13 @@ ElectricTraces electric_traces(const ElectricParameters& electric, const Membran
 /// @param permittivity_ratio  inside over outside
 /// @return  minus the force per area of the field on the membrane, normal and tangential part, [n_points x 3]; the
 ///     force on the fluid is f_b + f_λ − f_E
-/// Accuracy: spectral; on the sphere to 1e-11 (tests/physics/electric_sphere_test.cpp); errors of Example 1 as the
-/// paper has them (tests/physics/example1_test.cpp)
+/// Accuracy: spectral; on the sphere to 1e-11 (tests/physics/electric_sphere_test.cpp); errors of Example 1 as in the
+/// paper (tests/physics/example1_test.cpp)
 /// Source: paper Eqs. (3), (15), (32); Melcher and Taylor 1969
 Matrix electric_force(double permittivity, const Membrane& membrane, const ElectricTraces& traces,
                       double permittivity_ratio = 1.0);
 
-/// Which layers of this membrane the electric problem of the others needs.
+/// Layers of this membrane that the electric problem of the others requires.
 PairSelection electric_pair_selection(const ElectricParameters& electric);
 
 /// J (E·n + Σ_b D′_ab[V_b]) for every membrane a of this rank, values on its upsampled grid, [n_points].
@@ -89,27 +88,27 @@ std::vector<Vector> weighted_fluxes(const std::vector<ElectricMembrane>& membran
 
 /// Solves ½ g_a + Σ_b η_b S′_ab[g_b] = rhs_a for the densities of all membranes. A right-hand side of zero mean gives a
 /// density of zero mean at every contrast, also η = 1. Preconditioned with the inverse on a sphere; the unknowns are
-/// J g/R², so that small membranes count like large ones. The values come from g = 2 (rhs − ηS′[g]) with the solved
-/// densities on the right: S′ smooths, so they are free of the truncation to degree p that the coefficients suffer.
+/// J g/R², so that small and large membranes have equal weight. The values are g = 2 (rhs − ηS′[g]) with the solved
+/// densities on the right. As S′ smooths, they are not truncated to degree p as the coefficients are.
 /// @param weighted_rhs  J rhs on the upsampled grid of each membrane of this rank, [n_points]
 /// @param tolerance     of the preconditioned residual, relative
-/// @return  the densities of all, their values on this rank alone; each with the report of the solve
+/// @return  densities of all membranes, with values only for those of this rank; each with the report of the solve
 /// Accuracy: that of the layers; on the sphere to 1e-11 at every ratio of conductivities
 /// (tests/physics/electric_sphere_test.cpp), uniform field inside a 2:1 prolate to 1e-10
 /// (tests/physics/electric_prolate_test.cpp); at most 15 iterations on shape (33)
 /// (tests/physics/electric_solver_test.cpp); forces between two spheres along and across the field, insulating and
 /// conducting, at a gap of half a radius to 1e-9 at p = 20 (tests/physics/charge_density_test.cpp)
-/// Source: paper Eq. (12), the layers being those of all membranes
+/// Source: paper Eq. (12) with the layers of all membranes
 std::vector<SecondKindSolution> solve_second_kind(const std::vector<ElectricMembrane>& membranes,
                                                   const Interaction& interaction,
                                                   const std::vector<Vector>& weighted_rhs, double tolerance);
 
-/// The density of one membrane alone, with a given η; weighted_rhs as above, [n_points].
+/// The density of a single membrane with a given η; weighted_rhs as above, [n_points].
 SecondKindSolution solve_second_kind(const Membrane& membrane, double eta, const Vector& weighted_rhs,
                                      double tolerance);
 
 /// Σ_{b≠a} S_ab[q_b] − D_ab[V_b], the potential of the charges and V_m of all other membranes on each of this rank,
-/// coefficients [n_coefficients], for electric_traces; empty where there are no others.
+/// coefficients [n_coefficients], for electric_traces; empty without others.
 /// @param potentials  coefficients of each V_b, [n_coefficients]
 /// Source: paper Eq. (7)
 std::vector<Vector> potentials_of_others(const std::vector<ElectricMembrane>& membranes, const Interaction& interaction,

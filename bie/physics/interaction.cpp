@@ -14,7 +14,7 @@ namespace vehd {
 
 namespace {
 
-/// Nodes and J n there.
+/// Nodes of a membrane and J n there.
 struct TargetNodes {
   Matrix points, area_vectors;
 };
@@ -28,7 +28,7 @@ TargetNodes target_nodes(const InteractingMembrane& membrane) {
   return result;
 }
 
-/// Nodes that symmetries take to one another: of each set of them one has its values found, the others have its images.
+/// Sets of nodes that symmetries map to one another: values are computed at one node of each set, its original.
 class NodeImages {
  public:
   NodeImages(const SphereGrid& grid, const Symmetry& symmetry) : images_(static_cast<std::size_t>(grid.n_points())) {
@@ -63,7 +63,7 @@ class NodeImages {
   [[nodiscard]] TargetNodes originals(const TargetNodes& all) const {
     return {all.points(originals_, Eigen::all), all.area_vectors(originals_, Eigen::all)};
   }
-  /// Values at all nodes from those at the originals: of a potential, [n x 1], or of a flow, [n x 3].
+  /// Values of a potential, [n x 1], or of a flow, [n x 3], at all nodes from those at the originals.
   [[nodiscard]] Matrix at_all(const Matrix& values) const {
     if (originals_.size() == images_.size()) return values;
     Matrix result(std::ssize(images_), values.cols());
@@ -85,7 +85,7 @@ class NodeImages {
     double potential_sign;
   };
   struct Image {
-    Index original = -1;  ///< number among the originals
+    Index original = -1;  ///< index among the originals
     std::size_t map = 0;
   };
   std::vector<Map> maps_;  ///< the identity first
@@ -93,13 +93,13 @@ class NodeImages {
   std::vector<Index> originals_;
 };
 
-/// Where a value that a source takes at the nodes of a membrane counts: as it is at these nodes, or as what the image
-/// of the source does to another membrane, which is its image.
+/// Pair that uses the values of a layer at some nodes: as they are if `source` has the layer; otherwise `source` is an
+/// image of the membrane that has it, and the values are mapped to `target`.
 struct Use {
   std::size_t target, source;
 };
 
-/// Nodes of a membrane near to a source, with what their values are for.
+/// Nodes of the membrane `at` near to a source, with the pairs that use the values there.
 struct NearNodes {
   std::size_t at;
   std::vector<Use> uses;
@@ -107,12 +107,12 @@ struct NearNodes {
 
 /// Layers of all membranes at nodes that are near to them.
 struct NearLayers {
-  std::vector<std::vector<NearNodes>> near;  ///< of each membrane those that its layers serve
-  /// Of each membrane of this rank at the nodes of these, one after the other; where there are none, nothing.
+  std::vector<std::vector<NearNodes>> near;  ///< for each membrane, the nodes at which its layers are evaluated
+  /// Layers of each membrane of this rank at these nodes, one set after the other; absent if there are no nodes.
   std::vector<std::optional<PairLayers>> layers;
 };
 
-/// Normals turn with the points.
+/// Mirror images of points and area vectors.
 TargetNodes mirrored(const Wall& wall, const TargetNodes& nodes) {
   return {mirrored(wall, nodes.points), nodes.area_vectors * wall.mirror()};
 }
@@ -122,21 +122,21 @@ TargetNodes mirrored(const Wall& wall, const TargetNodes& nodes) {
 struct Interaction::Parts {
   Partition partition;
   Exchange exchange;
-  std::vector<SphereTransform> targets;     ///< of each membrane
-  std::vector<NodeImages> images;           ///< of its nodes, at the originals of which layers are found
-  NearLayers direct;                        ///< on others
-  std::optional<FarExpansions> expansions;  ///< for all others that these leave, where there are any
+  std::vector<SphereTransform> targets;     ///< to the nodes of each membrane
+  std::vector<NodeImages> images;           ///< of its nodes; layers are evaluated at their originals
+  NearLayers direct;                        ///< on other membranes
+  std::optional<FarExpansions> expansions;  ///< for the pairs not in `direct`, if there are any
   std::optional<Wall> wall;
   NearLayers of_images;  ///< at mirrored nodes of all, for the images in the wall
 
   [[nodiscard]] std::size_t n() const { return targets.size(); }
-  /// Those of this rank.
+  /// Calls body(a) for each membrane a of this rank.
   template <class Body>
   void for_each_membrane(const Body& body) const {
     for_each_member(partition.local_indices(n()), body);
   }
 
-  /// A layer of all membranes on each of this rank.
+  /// Sum of a layer over all membranes, on each membrane of this rank.
   template <class Field>
   [[nodiscard]] std::vector<Field> sums(PairLayer layer, const std::vector<Field>& densities) const {
     require_size("densities of membranes", static_cast<long>(densities.size()), static_cast<long>(n()));
@@ -168,7 +168,7 @@ struct Interaction::Parts {
     return targets[a].analyze(images[a].at_all(values));
   }
 
-  /// What each membrane of this rank does at the nodes near to it; empty of empty densities.
+  /// Layer of each membrane of this rank at the nodes near to it; empty if its density is.
   template <class Field>
   [[nodiscard]] std::vector<Matrix> near_values(const NearLayers& near, PairLayer layer,
                                                 const std::vector<Field>& densities) const {
@@ -179,10 +179,10 @@ struct Interaction::Parts {
     return from;
   }
 
-  /// Adds what each membrane does to those near to it, in the order of the sources.
-  /// @param from         of the membranes of this rank
-  /// @param values       there it is added at nodes
-  /// @param by_exchange  there, in coefficients, what membranes do that are images of others
+  /// Adds the layer of each membrane to those near to it, in the order of the sources.
+  /// @param from         near_values of the membranes of this rank
+  /// @param values       sums at nodes of the targets
+  /// @param by_exchange  sums, in coefficients, of the layers of membranes that are images of others
   void add_near(const NearLayers& near, const std::vector<Matrix>& from, std::vector<Matrix>& values,
                 std::vector<Matrix>& by_exchange) const {
     const auto add = [&](std::size_t a, bool by_image, const auto& block) {
@@ -218,8 +218,8 @@ struct Interaction::Parts {
     }
   }
 
-  /// body(target, false, values there) for all targets near to all sources, in the order of the sources, and
-  /// body(target, true, coefficients there) for what their images do to targets.
+  /// Calls body(target, false, values there) for all targets near to each source, in the order of the sources, and
+  /// body(target, true, coefficients there) for the layers of its images.
   template <class Body>
   void for_each_block(const NearLayers& near, const std::vector<Matrix>& from, const Body& body) const {
     for (std::size_t b = 0; b < n(); ++b) {
@@ -242,8 +242,8 @@ struct Interaction::Parts {
     }
   }
 
-  /// What the membranes of this rank have to be known for at the nodes of others, or at mirrored ones of all.
-  /// @param serves  (target, source): is that pair among them?
+  /// For each membrane of this rank, the nodes (or mirrored nodes) at which its layers are needed.
+  /// @param serves  (target, source): is this pair needed?
   template <class Serves>
   [[nodiscard]] std::vector<std::vector<NearNodes>> find_near(const Serves& serves) const {
     std::vector<std::vector<NearNodes>> near(n());
@@ -293,7 +293,7 @@ Interaction::Interaction(const std::vector<InteractingMembrane>& membranes, cons
     }
     parts->expansions.emplace(expanded, settings.tolerance, transforms, parts->partition);
   }
-  /// Of one membrane at nodes near to it.
+  // Layers of one membrane at the nodes near to it.
   const auto add_layers = [&](NearLayers& near, std::size_t b, const std::vector<TargetNodes>& at,
                               const PairSelection& selection, const MirrorPlane& plane, const char* other) {
     std::optional<PairLayers>& layers = near.layers.emplace_back();

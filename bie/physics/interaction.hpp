@@ -12,44 +12,43 @@
 
 namespace vehd {
 
-/// With more membranes distant pairs are served by multipole expansions: with fewer a sum over the nodes of each other
-/// one takes less time than moments of all.
+/// With more membranes than this, multipole expansions evaluate distant pairs; with fewer, sums over the nodes take
+/// less time than the moments.
 constexpr std::size_t most_summed_membranes = 8;
 
 /// One of several membranes.
 struct InteractingMembrane {
   const Matrix& position;        ///< coefficients, [n_coefficients x 3]
-  const SphereTransform& nodes;  ///< degree p ↔ where the layers of the others are taken
+  const SphereTransform& nodes;  ///< degree p ↔ nodes where the layers of the others are evaluated
   PairSelection selection;       ///< its own layers that the others need
-  Symmetry symmetry{};           ///< of all that is on it and about it: layers are found at one of the nodes it relates
+  Symmetry symmetry{};           ///< of its fields and surroundings: of nodes that it relates only one is evaluated
 };
 
 /// Layers of every membrane on all others, as maps from the densities of all to coefficients on each: for membrane a
-/// the sum over all b ≠ a. With more than a few membranes distant pairs are served by multipole expansions. Made once
-/// for frozen shapes, applied many times; an empty density counts as zero. All membranes are outside one another.
+/// the sum over all b ≠ a. With more than a few membranes, multipole expansions evaluate distant pairs. The maps are
+/// assembled once for frozen shapes. An empty density counts as zero. No membrane may enclose or intersect another.
+/// With several ranks, each has the layers of its own membranes, needs only their densities and obtains only the
+/// results on them; others stay empty. All calls are then collective. The sums have the same bits for any number of
+/// ranks.
 ///
-/// Of several ranks each has the layers of its own membranes: of densities it needs theirs, and of results it gets
-/// theirs, the others stay empty. All calls are collective then. The sums have the same bits for any number of ranks.
+/// Beside a wall each membrane has an image beyond it, which acts on all membranes, including its own. The layers of
+/// the image are those of the membrane at mirrored nodes, see wall_images.hpp.
 ///
-/// Beside a wall each membrane has an image beyond it, which acts on all membranes, the one itself included; its layers
-/// are those of the membrane at mirrored nodes, see wall_images.hpp.
-///
-/// Where membranes with all that is on them are images of others nothing is computed for the images: of densities it
-/// needs those of the originals, and of results it gives theirs.
-/// Accuracy: that of PairLayers at the nodes, and what the degree of the target leaves out of the sums; Green's
-/// identity between two shapes without symmetry, nine membranes as the sums of their pairs to 1e-9
-/// (tests/physics/interaction_test.cpp)
-/// Beside a wall two mirrored membranes to 1e-9, Green's identities without slip (tests/physics/wall_test.cpp)
+/// If membranes with their fields are images of others under a symmetry, nothing is computed for the images: only the
+/// densities of the originals are required, and only their results returned.
+/// Accuracy: that of PairLayers at the nodes, then truncation to the degree of the target; Green's identity between two
+/// shapes without symmetry, nine membranes as the sums of their pairs to 1e-9 (tests/physics/interaction_test.cpp); at
+/// a wall two mirrored membranes to 1e-9, Green's identities without slip (tests/physics/wall_test.cpp)
 /// Source: paper Eqs. (6), (8), (9) with source and target on different membranes; no_slip_flow
 class Interaction {
  public:
-  /// One membrane alone in unbounded fluid: the interaction is empty, and this process has the membrane.
+  /// A single membrane in unbounded fluid, which this process owns: the interaction is empty.
   Interaction();
-  /// @param settings     memory for rows is that of all
-  /// @param instruments  targets of all pairs are counted there, of the membranes of this rank
-  /// @param exchange     which membranes are images of others, as the partition has it; most_summed_membranes then
-  /// @param transforms   those known already; others are made
-  /// @param wall         beside the membranes, or none; at a gap of rounding a membrane meets its image
+  /// @param settings     row_bytes is the memory for all membranes together
+  /// @param instruments  counts the targets, as counts() does
+  /// @param exchange     images of membranes, as in the partition; with any, at most most_summed_membranes membranes
+  /// @param transforms   to be reused; missing ones are made
+  /// @param wall         beside the membranes, or none; a membrane at a gap of rounding intersects its image
   /// @throws ConvergenceError if two membranes intersect or are too near for any rule, on the rank of one of them
   Interaction(const std::vector<InteractingMembrane>& membranes, const PairSettings& settings, Instruments& instruments,
               Partition partition = {}, Exchange exchange = {}, SharedTransforms transforms = {},
@@ -58,30 +57,30 @@ class Interaction {
   ~Interaction();
   Interaction(Interaction&&) noexcept;
 
-  /// Is there no membrane that acts on another one or, by way of a wall, on itself?
+  /// Does no membrane act on another one or, through a wall, on itself?
   [[nodiscard]] bool is_empty() const;
-  /// Which membranes are whose.
+  /// Assignment of the membranes to ranks.
   [[nodiscard]] const Partition& partition() const;
   /// Which membranes are images of others.
   [[nodiscard]] const Exchange& exchange() const;
-  /// Gives all ranks what each has for its membranes, and images what follows from their originals: coefficients of
-  /// scalars with the sign of V_m, each column one of them. Collective.
+  /// Sends the fields of each rank's membranes to all ranks and maps those of originals to their images: coefficients
+  /// of scalars that take the sign of V_m, one per column. Collective.
   template <typename Field>
   void gather_potentials(std::vector<Field>& fields) const {
     partition().gather(fields,
                        [this](const Field& f, std::size_t a) -> Field { return exchange().image(a).potential(f); });
   }
-  /// Gathers vectors, [n_coefficients x 3]. Collective.
+  /// As gather_potentials, for vectors, [n_coefficients x 3]. Collective.
   void gather_vectors(std::vector<Matrix>& fields) const {
     partition().gather(fields, [this](const Matrix& f, std::size_t a) { return exchange().image(a).vector(f); });
   }
 
-  // Each throws std::logic_error for a layer that was not selected, and where the interaction is empty.
+  // Each throws std::logic_error for a layer that was not selected, and if the interaction is empty.
 
   /// J n·∇S[f] from J f, coefficients [n_coefficients] of each membrane: S′ between membranes. Degree 0 is zero: the
   /// layers of others have no flux through a membrane.
   [[nodiscard]] std::vector<Vector> weighted_single_flux(const std::vector<Vector>& weighted) const;
-  /// J n·∇D[f] from f, coefficients [n_coefficients] of each: D′ between membranes, degree 0 likewise.
+  /// J n·∇D[f] from f, coefficients [n_coefficients] of each: D′ between membranes. Degree 0 is zero as well.
   [[nodiscard]] std::vector<Vector> weighted_double_flux(const std::vector<Vector>& densities) const;
   /// S[f] from J f, coefficients [n_coefficients] of each.
   [[nodiscard]] std::vector<Vector> single_potential(const std::vector<Vector>& weighted) const;
@@ -92,7 +91,7 @@ class Interaction {
   /// Stokes double layer from v, [n_coefficients x 3] each.
   [[nodiscard]] std::vector<Matrix> stokes_double(const std::vector<Matrix>& velocities) const;
 
-  /// How many targets of all pairs take which way; of the membranes of this rank.
+  /// Number of targets of all pairs by method, for the membranes of this rank.
   [[nodiscard]] PairCounts counts() const;
 
  private:

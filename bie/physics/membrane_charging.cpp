@@ -48,7 +48,7 @@ CurrentLaw<double> law_of_step(const ChargingMembrane& of, const MembraneCurrent
           held.s_out / dt + current.constant};
 }
 
-/// The charges at the end of a step that ends in V.
+/// The charges at the end of a step, from V there.
 Unknowns charges_after(const ChargingMembrane& of, const CurrentLaw<double>& law, const Vector& potential) {
   const auto& [electric, membrane] = of.in_field;
   if (!electric.displacement_current) return {{}, potential};
@@ -61,8 +61,8 @@ Unknowns charges_after(const ChargingMembrane& of, const CurrentLaw<double>& law
           membrane.fine.analyze(Vector(displaced_out - displaced_in)) / c};
 }
 
-/// s + residual − dt r(s, V), what an implicit step of s starts from; values on the upsampled grid.
-/// @param potential  V at the start of the step, likewise
+/// Known part of an implicit step of s, s + residual − dt r(s, V), or s without a residual; on the upsampled grid.
+/// @param potential  V at the start of the step, on the upsampled grid
 Vector known_state(const PorationReaction& reaction, const SphereTransform& fine, double dt, const Vector& state,
                    const Unknowns* residual, const Vector& potential) {
   Vector known = fine.synthesize(state);
@@ -79,11 +79,11 @@ Vector state_after(const PorationReaction& reaction, const SphereTransform& fine
   return fine.analyze(s);
 }
 
-/// A step of one membrane. The unknown w of its equation is V at the end, or what a correction adds to it.
+/// A step of one membrane. The unknown w of its equation is V at the end, or the change of V in a correction.
 class ChargingStep {
  public:
-  /// @param of         must outlive it, as `from` and the residual
-  /// @param potential  V_m at `from`; counts where the membrane porates
+  /// @param of         must outlive it, as must `from` and `residual`
+  /// @param potential  V_m at `from`; used only if the membrane porates
   ChargingStep(const ChargingMembrane& of, double dt, const Unknowns& from, const Unknowns* residual, Vector potential)
       : driven_(of), dt_(dt), from_(from), residual_(residual), potential_(std::move(potential)) {
     if (is_correction()) {
@@ -102,14 +102,14 @@ class ChargingStep {
   [[nodiscard]] const ChargingMembrane& driven() const { return driven_; }
   [[nodiscard]] bool porates() const { return driven_.reaction != nullptr; }
   [[nodiscard]] CurrentLaw<double> law() const { return law_of_step(driven_, current_, dt_, before()); }
-  /// Where the first solve starts.
+  /// Initial guess of the first solve.
   [[nodiscard]] const Vector& guess() const { return before().transmembrane_potential; }
 
-  /// How far a solution moves V, and the size of V.
+  /// Largest change of V by a solution, and largest |V|.
   struct Move {
     double moved = 0.0, size = 0.0;
   };
-  /// Takes the slopes at what is solved for.
+  /// Linearises about the solution, with the change of V limited.
   Move advance(const Vector& solution) {
     if (!porates()) return {};
     const Vector reached = base_ + Vector(fine().synthesize(solution));
@@ -119,7 +119,7 @@ class ChargingStep {
     return move;
   }
 
-  /// y from w and the law that it obeys.
+  /// y from w and the law for which it was solved.
   [[nodiscard]] Unknowns reached(const CurrentLaw<double>& law, const Vector& solution) const {
     Unknowns y = charges_after(driven_, law, solution);
     if (is_correction()) {
@@ -138,7 +138,7 @@ class ChargingStep {
   [[nodiscard]] const Unknowns& before() const { return is_correction() ? *residual_ : from_; }
   [[nodiscard]] const SphereTransform& fine() const { return driven_.in_field.membrane.fine; }
 
-  /// The current of w: that of V = base + w, linear about the last V, less the one at the base.
+  /// Current as a function of w: that of V = base + w, linearised about the last V, minus that of the base.
   void linearise() {
     const PorationReaction& reaction = *driven_.reaction;
     for (Index i = 0; i < known_.size(); ++i) {
@@ -152,19 +152,19 @@ class ChargingStep {
     }
   }
 
-  ChargingMembrane driven_;  // by nothing but its residual where it is a correction
+  ChargingMembrane driven_;  // without field and pump if it is a correction
   double dt_;
   const Unknowns& from_;
   const Unknowns* residual_;
   Vector potential_;
   MembraneCurrent intact_, current_;
-  // Of a membrane that porates, values on the upsampled grid.
-  Vector known_;           // of s
+  // Only for a membrane that porates, values on the upsampled grid.
+  Vector known_;           // see known_state
   Vector base_, at_base_;  // V and the current through the membrane for w = 0
-  Vector about_;           // V at which the slopes are taken
+  Vector about_;           // V of the linearisation
 };
 
-/// V_m that goes with these charges.
+/// Finds V_m of each membrane for these charges.
 SolveReport find_potentials(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction,
                             double tolerance, const std::vector<Unknowns>& charges, std::vector<Vector>& potentials) {
   for (const Unknowns& one : charges) potentials.push_back(one.transmembrane_potential);

@@ -8,7 +8,7 @@ namespace vehd {
 
 namespace {
 
-/// The velocities of a solve inside another one are exact next to its tolerance.
+/// The error of a solve inside another one is negligible at the tolerance of the outer solve.
 constexpr SolveOptions kWithinSolve{1e-12, 100};
 
 }  // namespace

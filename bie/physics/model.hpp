@@ -18,13 +18,13 @@ struct VesicleModel {
   bool inextensible = true;
   std::optional<Undulations> undulations{};  ///< of an inextensible membrane that bends; absent: its area is constant
   std::optional<BendingParameters> bending;
-  InnerDielectric inside;                              ///< counts with Model::electric alone, as charging does
+  InnerDielectric inside;                              ///< used only with Model::electric, as is charging
   ChargingParameters charging;                         ///< of the membrane
-  std::optional<PorationCriterion> criterion{};        ///< of which a history tells
-  std::shared_ptr<const PorationReaction> reaction{};  ///< null: the membrane conducts as much as ever
-  bool by_place = false;           ///< some properties differ from place to place, see SurfaceFields::material
+  std::optional<PorationCriterion> criterion{};        ///< reported in the history
+  std::shared_ptr<const PorationReaction> reaction{};  ///< null: poration does not change the conductance
+  bool by_place = false;           ///< some properties vary over the membrane, see SurfaceFields::material
   std::optional<Waveform> pump{};  ///< of the pump current; empty without a pump
-  /// Effects on this vesicle alone: gravity, spontaneous curvature, …
+  /// Effects on this vesicle only: gravity, spontaneous curvature, …
   std::vector<std::shared_ptr<const ExplicitEffect>> effects;
 };
 
@@ -41,16 +41,16 @@ struct Model {
   std::vector<VesicleModel> vesicles = std::vector<VesicleModel>(1);
 };
 
-/// The fluids and the membrane that one vesicle moves with.
+/// Fluids and membrane of one vesicle, for its velocity.
 FlowParameters flow_parameters(const Model& model, const VesicleModel& vesicle);
 
-/// Is there a field of which only the mean over a period counts? V_m follows from the shapes then and is no unknown.
+/// Is the field averaged over a period? Then V_m follows from the shapes and is not an unknown.
 bool is_averaged(const Model& model);
 
-/// Does free charge of both faces relax in time, so that V_m is no part of the state?
+/// Does free charge of both faces relax in time? Then V_m is not part of the state.
 bool relaxes_charge(const Model& model);
 
-/// The electric problem of one vesicle, the waveform with it; the model must have a field.
+/// Electric problem of one vesicle, with the waveforms; the model must have a field.
 ElectricParameters electric_parameters(const Model& model, const VesicleModel& vesicle);
 
 }  // namespace vehd

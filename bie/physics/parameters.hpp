@@ -15,7 +15,7 @@ struct BendingParameters {
   bool operator==(const BendingParameters&) const = default;
 };
 
-/// Thermal undulations too small to be resolved store area, which tension pulls out; beyond that lipids stretch.
+/// Thermal undulations too small to be resolved store area, which tension pulls out; in addition the lipids stretch.
 struct Undulations {
   double thermal_energy = 0.0;                 ///< k_BT; 0: the membrane stretches and does not undulate
   double bending_rigidity = 0.0;               ///< κ_c = κ_B/2
@@ -25,7 +25,7 @@ struct Undulations {
   bool operator==(const Undulations&) const = default;
 };
 
-/// Parameters of the velocity of one membrane besides its shape and the forces.
+/// Parameters that determine the velocity of one membrane, besides its shape and the forces.
 struct FlowParameters {
   double viscosity = 1.0;        ///< μ_e, outside
   double viscosity_ratio = 1.0;  ///< μ_i/μ_e
@@ -34,15 +34,15 @@ struct FlowParameters {
   std::optional<Undulations> undulations{};
 };
 
-/// The uniform field far away and the fluid that it is applied to.
+/// Uniform field at infinity and the fluid outside the vesicles.
 struct AppliedField {
-  Vector3 field = Vector3::Zero();    ///< E_inf where the waveform is 1
+  Vector3 field = Vector3::Zero();    ///< E_inf when the waveform is 1
   double conductivity = 1.0;          ///< sigma_e
   double permittivity = 1.0;          ///< epsilon outside
   Waveform waveform{};                ///< of the field
   bool displacement_current = false;  ///< in both fluids
-  /// Of a field that alternates so fast that only the mean of its force over a period moves anything; the waveform is
-  /// that of its amplitude then.
+  /// Frequency of a field that alternates so fast that only the mean of its force over a period matters; the waveform
+  /// then applies to the amplitude.
   std::optional<double> averaged_frequency{};
 };
 
@@ -56,7 +56,7 @@ struct InnerDielectric {
 /// Leaky-dielectric bulk fluids on both sides of one membrane in a uniform applied field, Eq. (4).
 /// Source: paper Eqs. (3), (4)
 struct ElectricParameters {
-  Vector3 field = Vector3::Zero();             ///< E_inf where the waveform is 1
+  Vector3 field = Vector3::Zero();             ///< E_inf when the waveform is 1
   double conductivity_in = 1.0;                ///< sigma_i
   double conductivity_out = 1.0;               ///< sigma_e
   double permittivity = 1.0;                   ///< epsilon outside
@@ -64,12 +64,12 @@ struct ElectricParameters {
   Waveform waveform{};                         ///< of the field
   bool displacement_current = false;           ///< in both fluids
   std::optional<double> averaged_frequency{};  ///< see AppliedField
-  double pump = 0.0;                           ///< factor of the pump current where its waveform is 1; 0 without a pump
+  double pump = 0.0;                           ///< factor of the pump current when its waveform is 1; 0 without a pump
   Waveform pump_waveform{};
 
   [[nodiscard]] double permittivity_in() const { return permittivity_ratio * permittivity; }
 
-  /// This problem with the field and the pump of one time and without waveforms.
+  /// These parameters with the field and the pump at one time, without waveforms.
   [[nodiscard]] ElectricParameters at(double time, Limit limit) const {
     ElectricParameters now = *this;
     now.field *= waveform.at(time, limit);

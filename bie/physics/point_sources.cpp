@@ -25,7 +25,7 @@ PointSourceFields point_source_fields(const std::vector<PointSource>& sources, c
 
 namespace {
 
-/// n·Σ_el of a field known in full, E = −∇φ.
+/// n·Σ_el from the full gradient, E = −∇φ.
 Matrix maxwell_traction_of_gradient(double permittivity, const Surface& s, const Matrix& gradient, const Vector& flux) {
   const Vector pressure = -0.5 * gradient.rowwise().squaredNorm();
   return permittivity * (flux.asDiagonal() * gradient + pressure.asDiagonal() * s.normal);
@@ -54,8 +54,8 @@ JumpSolution solve_jumps(const ElectricParameters& electric, const Membrane& mem
 
   ElectricTraces traces;
   traces.charge = density.values;
-  // Two equations for two fluxes, [[∂φ/∂n]] = q and [[σ ∂φ/∂n]] = J_m, in the form that bears σ_i = σ_e: their mean
-  // is the principal value S′[q] − D′[V].
+  // Two equations for two fluxes, [[∂φ/∂n]] = q and [[σ ∂φ/∂n]] = J_m, in a form that is regular at σ_i = σ_e: the mean
+  // of the fluxes is the principal value S′[q] − D′[V].
   const Vector weighted_mean =
       fine.synthesize(membrane.layers.laplace_adjoint.apply(density.weighted)).col(0) - hypersingular;
   const Vector mean = weighted_mean.cwiseQuotient(s.area_element);

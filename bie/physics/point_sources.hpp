@@ -11,7 +11,7 @@ namespace vehd {
 struct PointSource {
   Vector3 position;
   double strength;
-  bool inside;  ///< sources inside the surface make the exterior potential, sources outside the interior one
+  bool inside;  ///< sources inside the surface generate the exterior potential, sources outside the interior one
 };
 
 /// Exact traces on the membrane of the harmonic potentials that the sources generate on either side, with the
@@ -44,11 +44,11 @@ struct JumpSolution {
 JumpSolution solve_jumps(const ElectricParameters& electric, const Membrane& membrane, const Vector& potential,
                          const Vector& current_jump, double tolerance);
 
-/// Example 1 of the paper: solution of (35) for the jumps V_m and J_m of the point sources, against the exact one.
+/// Example 1 of the paper: errors of the solution of (35) for the jumps V_m and J_m of the point sources.
 struct PointSourceErrors {
   double charge;               ///< max |q − q*| / max |q*| over the upsampled grid
   double force;                ///< max |f_E − f_E*| / max |f_E*|
-  double charge_l2, force_l2;  ///< ‖q − q*‖/‖q*‖ and the same of f_E, in L2(γ)
+  double charge_l2, force_l2;  ///< ‖q − q*‖/‖q*‖ and ‖f_E − f_E*‖/‖f_E*‖ in L2(γ)
   SolveReport report;
 };
 

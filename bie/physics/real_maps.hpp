@@ -6,10 +6,10 @@
 #include "bie/physics/interaction.hpp"
 #include "bie/support/complex_columns.hpp"
 
-/// Maps of real fields, transforms and layers, applied to real fields or to both parts of complex ones.
+/// Real linear maps, transforms and layers, applied to real fields or to both parts of complex ones.
 namespace vehd {
 
-/// A linear map of real columns, of each part of a field.
+/// Applies a linear map of real columns to each part of a field.
 template <typename Scalar, typename Map>
 FieldOf<Scalar> mapped(const Map& map, const FieldOf<Scalar>& field) {
   return from_parts<Scalar>(map(parts_of(field)));
@@ -41,7 +41,7 @@ FieldOf<Scalar> adjoint(const Membrane& membrane, const FieldOf<Scalar>& weighte
 }
 
 /// (½ + η S′) on weighted coefficients: J g ↦ J (½ g + η S′[g]); the left side of Eq. (12). Its entry of degree 0 is
-/// ½(1 − η) times that of J g exactly (∫S′[g] = −½∫g), also where the quadrature would only come close.
+/// set to ½(1 − η) times that of J g (∫S′[g] = −½∫g), which the quadrature would only approximate.
 /// @param weighted_density  coefficients of J g, [n_coefficients]
 /// Source: paper Eq. (12), divided by η
 template <typename Scalar>
@@ -72,9 +72,9 @@ FieldOf<Scalar> applied_flux(const ElectricMembrane& of) {
   return weighted_field_flux(of.membrane, of.electric.field).cast<Scalar>();
 }
 
-/// The mean of φ_i and φ_e, coefficients: −E·x + S[f] − D[V] and what others add.
-/// @param weighted_jump  J f, f the jump of the fields; empty where it is zero
-/// @param of_others      coefficients, or empty
+/// The mean of φ_i and φ_e, coefficients: −E·x + S[f] − D[V] plus the contribution of others.
+/// @param weighted_jump  J f, f = E_e − E_i; empty if it is zero
+/// @param of_others      contribution of other membranes, coefficients, or empty
 /// Source: paper Eq. (11)
 template <typename Scalar>
 FieldOf<Scalar> mean_potential(const ElectricMembrane& of, const FieldOf<Scalar>& potential,
@@ -117,7 +117,7 @@ std::vector<FieldOf<Scalar>> of_others(const Interaction& interaction, Layer lay
   }
 }
 
-/// See Interaction::gather_potentials.
+/// Interaction::gather_potentials of real or complex fields.
 template <typename Scalar>
 void gather(const Interaction& interaction, std::vector<FieldOf<Scalar>>& fields) {
   if (interaction.is_empty()) return;

@@ -4,8 +4,8 @@
 
 #include "bie/support/types.hpp"
 
-/// Vectors and tensors in rotated coordinates. Symmetries are read off exact zeros, so what is nothing but rounding of
-/// the rotation becomes zero.
+/// Vectors and tensors in rotated coordinates. Symmetries are detected by exact zeros, so entries that are only
+/// rounding errors of the rotation are set to zero.
 namespace vehd {
 
 namespace detail {

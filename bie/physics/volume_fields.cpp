@@ -12,7 +12,7 @@ namespace vehd {
 
 namespace {
 
-/// Zero coefficients in place of a density that is absent.
+/// The density, or zero coefficients if it is empty.
 Matrix or_zero(const Matrix& density, const Matrix& position, Index components) {
   return density.size() > 0 ? density : Matrix::Zero(position.rows(), components);
 }
@@ -52,7 +52,7 @@ PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& pos
 
 namespace {
 
-/// What the image in a wall adds to w.
+/// Contribution of the image in a wall to w.
 Matrix flow_of_image(const Wall& wall, const Matrix& points, const Matrix& position, const VelocitySources& sources,
                      Instruments& instruments) {
   const double ratio = sources.viscosity_ratio;
@@ -77,7 +77,7 @@ VelocitySamples velocity_at(const Matrix& points, const Matrix& position, const 
   LayerDensities densities;
   densities.stokes_single = or_zero(sources.weighted_force, position, 3);
   if (ratio != 1.0) densities.stokes_double = sources.membrane_velocity;
-  // The outer limit is the one that needs no division.
+  // The exterior limit is w itself; only the interior one is divided by the ratio.
   OffSurfaceValues layers =
       OffSurfaceLayers(position, std::move(densities), settings).evaluate(points, Side::exterior, instruments);
   require_resolved(layers, points);

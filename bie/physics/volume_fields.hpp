@@ -14,16 +14,16 @@ struct PotentialSources {
   Vector3 field = Vector3::Zero();  ///< E_∞
   Vector transmembrane_potential;   ///< V_m
   Vector weighted_charge;           ///< J q, q = [[∂φ/∂n]] = η g
-  std::optional<Wall> wall{};       ///< in which all that is an image
+  std::optional<Wall> wall{};       ///< in which both layers have images
 };
 
 /// The potential and its field at points off the membrane.
 struct PotentialSamples {
   Vector potential;        ///< φ, [n_points]
   Matrix field;            ///< E = −∇φ, [n_points x 3]
-  Vector potential_error;  ///< estimates of the quadrature's error, absolute
+  Vector potential_error;  ///< estimate of the quadrature error, absolute
   Vector field_error;
-  std::vector<Side> side;  ///< where each point stands
+  std::vector<Side> side;  ///< of the membrane on which each point lies
   Vector distance;         ///< from the membrane, see OffSurfaceValues
 };
 
@@ -31,9 +31,9 @@ struct PotentialSamples {
 /// exterior), and φ → −E_∞·x far away.
 /// @param position  coefficients of the membrane, [n_coefficients x 3]
 /// @param points    [n_points x 3], inside and outside at any distance, on the fluid's side of a wall
-/// @param side      limit taken at points on the membrane; its principal value is the mean of both
+/// @param side      limit taken at points on the membrane; the principal value is the mean of both limits
 /// @throws ConvergenceError if the quadrature is not resolved at some point
-/// Accuracy: docs/near_membrane.md Potential and field around a sphere to 1e-9, inside a 2:1 prolate to 1e-8
+/// Accuracy: docs/near_membrane.md; potential and field around a sphere to 1e-9, inside a 2:1 prolate to 1e-8
 /// (tests/physics/volume_fields_test.cpp)
 /// Source: paper Eq. (7)
 PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& position, const PotentialSources& sources,
@@ -45,22 +45,22 @@ struct VelocitySources {
   std::function<Vector3(const Vector3&)> background;  ///< v_∞ at a point; empty in a quiescent fluid
   Matrix weighted_force;         ///< J f, f = f_b + f_λ − f_E acting on the fluid, coefficients [n_coefficients x 3]
   double viscosity_ratio = 1.0;  ///< inside over outside, > 0
-  Matrix membrane_velocity;      ///< v on γ, coefficients [n_coefficients x 3]; read where the ratio is not 1
+  Matrix membrane_velocity;      ///< v on γ, coefficients [n_coefficients x 3]; used only if the ratio is not 1
   std::optional<Wall> wall{};    ///< in which both layers have images
 };
 
 /// The velocity at points off the membrane.
 struct VelocitySamples {
   Matrix velocity;        ///< [n_points x 3]
-  Vector velocity_error;  ///< estimate of the quadrature's error, absolute
+  Vector velocity_error;  ///< estimate of the quadrature error, absolute
   std::vector<Side> side;
   Vector distance;
 };
 
 /// v(x) = w(x) outside and w(x)/Λ inside, Λ the ratio of the viscosities, with
 ///   w(x) = v_∞(x) + (1/8πμ) ∫ (I/|r| + r rᵀ/|r|³) f dA + (1 − Λ) D[v](x), r = x − y,
-/// D the Stokes double layer (stokes_double_kernel): Eq. (5) where Λ = 1. Continuous across the membrane, so that
-/// points on it need no side. Where Λ is small, errors of w count 1/Λ times inside.
+/// D the Stokes double layer (stokes_double_kernel); Eq. (5) for Λ = 1. Continuous across the membrane, so that points
+/// on it need no side. Errors of w are multiplied by 1/Λ inside, which matters if Λ is small.
 /// @throws ConvergenceError if the quadrature is not resolved at some point
 /// @throws InputError unless Λ > 0
 /// @param points    [n_points x 3], on the fluid's side of a wall

@@ -10,10 +10,10 @@ namespace vehd {
 
 namespace {
 
-/// Times this close, relative to their size or to what the waveform does in time, are the same: steps that end on a
-/// discontinuity do so up to rounding.
+/// Times this close, relative to their size or to the duration of the waveform, count as equal: steps that end on a
+/// discontinuity do so only up to rounding.
 constexpr double kSameTime = 1e-11;
-/// Likewise for factors, over the largest: on both sides of a discontinuity of a table they are interpolated.
+/// Factors this close, relative to the largest, count as equal: a table is interpolated on both sides of its times.
 constexpr double kSameFactor = 1e-9;
 
 }  // namespace
@@ -131,7 +131,7 @@ bool Waveform::is_quiet(double time) const {
   if (kind_ == Kind::constant) return false;
   if (kind_ == Kind::alternating) return amplitude_ == 0.0;
   const std::optional<double> discontinuity = next_discontinuity(time);
-  // Within a burst two zeros are no quiet.
+  // Zeros of the oscillation do not make a burst quiet.
   if (kind_ == Kind::burst) return !discontinuity || *discontinuity == start_;
   return at(time) == 0.0 && (!discontinuity || at(*discontinuity, Limit::before) == 0.0);
 }

@@ -5,12 +5,12 @@
 
 namespace vehd {
 
-/// Which value a jump has: the one before it or the one after it.
+/// Which value to take at a jump: the one before it or the one after it.
 enum class Limit { before, after };
 
-/// Factor that a field or a flow is multiplied with in the course of time.
-/// Times that differ by rounding are one time, relative to their size or to what the waveform does in time; so its unit
-/// does not matter (tests/physics/waveform_test.cpp).
+/// Time-dependent factor of a field or a flow.
+/// Times that differ by rounding, relative to their size or to the duration of the waveform, count as equal; so the
+/// unit of time does not matter (tests/physics/waveform_test.cpp).
 class Waveform {
  public:
   /// 1 at all times.
@@ -36,7 +36,6 @@ class Waveform {
   [[nodiscard]] bool jumps_at(double time) const;
   /// Is the factor zero from `time` up to the next discontinuity?
   [[nodiscard]] bool is_quiet(double time) const;
-  /// Are all parameters the same?
   bool operator==(const Waveform&) const = default;
 
  private:
@@ -44,7 +43,7 @@ class Waveform {
 
   Waveform(Kind kind, double amplitude) : kind_(kind), amplitude_(amplitude) {}
 
-  /// Rounding of a time near a discontinuity.
+  /// Difference below which times near a discontinuity count as equal.
   [[nodiscard]] double slack(double time) const;
   [[nodiscard]] double oscillation(double time) const;
 

@@ -60,7 +60,7 @@ bool LinearFlowEffect::is_invariant_under(const Reflection& g) const {
 
 namespace {
 
-/// Turning to an oblique axis rounds equal entries apart.
+/// Equality up to rounding: rotation to an oblique axis perturbs equal entries differently.
 bool are_equal(const Matrix3& a, const Matrix3& b) {
   constexpr double kRounding = 1e-14;
   return (a - b).cwiseAbs().maxCoeff() <= kRounding * a.cwiseAbs().maxCoeff();

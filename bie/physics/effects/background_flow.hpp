@@ -47,7 +47,7 @@ class LinearFlowEffect : public ExplicitEffect {
   BackgroundFlow flow_;
 };
 
-/// Of the flow of a model, which is none of its lists: it is made where these are read (explicit_effects).
+/// Registration of Model::flow. It makes nothing: explicit_effects creates the effect.
 EffectRow background_flow_row();
 
 }  // namespace vehd

@@ -61,7 +61,7 @@ Matrix linearised_bending_force(const BendingParameters& bending, const Membrane
 
 namespace {
 
-/// ∇_γ f of a field that is known by its values, [n_points x 3].
+/// ∇_γ f from values of f on the upsampled grid, [n_points x 3].
 Matrix gradient_of(const Membrane& membrane, const Vector& values) {
   return surface_gradient(membrane.surface, membrane.fine.synthesize_gradient(membrane.fine.analyze(values)));
 }

@@ -21,8 +21,8 @@ Matrix bending_force(const BendingParameters& bending, const Membrane& membrane)
 double bending_energy_scaled(const Surface& surface);
 
 /// First variation of H at material points for a displacement u: h = ½ Δ_γ u·n − b^ab x_a·∂_b u. The first term is Eq.
-/// (28b), which keeps the metric; the second one is what the change of the metric adds. Without it the implicit
-/// response to an ellipsoidal disturbance of a sphere is twice too stiff. Coefficients of h, [n_coefficients].
+/// (28b), at fixed metric; the second one accounts for the change of the metric. Without it the implicit response to an
+/// ellipsoidal disturbance of a sphere is twice as stiff. Coefficients of h, [n_coefficients].
 /// @param to            transform from the upsampled grid to the degree of h
 /// @param displacement  u with first and second derivatives on the upsampled grid, each [n_points x 3]
 /// Accuracy: spectral; of u = x it is −H to 1e-12, of a rigid motion 0 to 1e-12, differences of H to 1e-6
@@ -33,28 +33,27 @@ Vector curvature_increment(const Membrane& membrane, const SphereTransform& to, 
 /// −κ_B (Δ_γ h + 2h(H² − K)) n, Eq. (28a), values on the upsampled grid. A spatially varying κ_B is inside the
 /// Laplacian.
 /// @param increment  h, coefficients [n_coefficients]
-/// @return  force per area, [n_points x 3]; linear in h, the force itself for the present H
-///     (tests/physics/bending_test.cpp)
+/// @return  force per area, [n_points x 3]; linear in h, equal to bending_force if h is the current H
+///          (tests/physics/bending_test.cpp)
 /// Source: paper Eq. (28a)
 Matrix linearised_bending_force(const BendingParameters& bending, const Membrane& membrane, const Vector& increment);
 
-/// Do κ_B and c differ from place to place? Then elastic_force takes the place of bending_force and of
-/// SpontaneousCurvatureEffect.
+/// Do κ_B and c vary over the membrane? Then elastic_force replaces bending_force and SpontaneousCurvatureEffect.
 bool bends_by_place(const Membrane& membrane);
 
 /// ∫κ_B (H − c)² dA of a membrane with spatially varying elasticity.
 /// Accuracy: spectral (tests/physics/elasticity_by_place_test.cpp)
 double elastic_energy(const Membrane& membrane);
 
-/// Force per area on the fluid, −δE/δx of E = ∫κ_B (H − c)² dA with κ_B and c that ride on the material. With
+/// Force per area on the fluid, −δE/δx of E = ∫κ_B (H − c)² dA with κ_B and c fixed to material points. With
 /// m = κ_B (H − c):
 ///   f = −[Δ_γ m + 2m(2H² − K) − 2H m(H − c)] n + (H − c)² ∇_γ κ_B − 2m ∇_γ c.
-/// The second part is tangential: sliding along itself, the membrane brings other material under the same curvature.
-/// m enters truncated to the degree p, as H does in bending_force.
+/// The other terms are tangential: if the membrane slides along itself, other material comes under the same curvature.
+/// m enters truncated to degree p, as H in bending_force.
 /// @return  values on the upsampled grid, [n_points x 3]
 /// Accuracy: spectral; along smooth displacements the slope of E to 1e-5 (tests/physics/elasticity_by_place_test.cpp)
-/// Source: first variation of Helfrich's energy with coefficients that are functions of the material point; with
-/// uniform ones paper Eq. (2)
+/// Source: first variation of Helfrich's energy with coefficients that are functions of the material point; for uniform
+/// coefficients paper Eq. (2)
 Matrix elastic_force(const Membrane& membrane);
 
 EffectRow bending_row();

@@ -16,13 +16,13 @@ namespace {
 
 constexpr const char* kContact = "contact";
 
-/// Beyond so many ranges the potential is below rounding.
+/// Cut-off distance in ranges, beyond which the potential is below rounding.
 constexpr double kReach = 6.0;
-/// The trapezoidal rule on nodes so many ranges apart misses a Gaussian by 2 exp(−(π/0.65)²) = 1e-10.
+/// Spacing of nodes in ranges: the relative error of the trapezoidal rule for a Gaussian is 2 exp(−(π/0.65)²) = 1e-10.
 constexpr double kSpacing = 0.65;
 constexpr int kHighestOrder = 256;
 
-/// About a membrane.
+/// Ball that contains the nodes of a membrane.
 struct Ball {
   Vector3 centre;
   double radius;
@@ -42,7 +42,7 @@ bool are_near(const Ball& a, const Ball& b, double reach) {
   return (a.centre - b.centre).norm() <= a.radius + b.radius + reach;
 }
 
-/// Nodes of a membrane as close as the potential asks for, with their areas.
+/// Nodes of a membrane at the spacing that the potential requires, with their quadrature weights.
 struct SourceNodes {
   Eigen::Matrix3Xd points;
   Vector areas;
@@ -64,12 +64,12 @@ SourceNodes source_nodes(const ContactParameters& contact, const ContactMembrane
   return {fine.position.transpose(), fine.quadrature};
 }
 
-/// W and its slope along the normal at the points of a surface.
+/// W and ∂W/∂n at the points of a surface.
 struct PotentialOfOthers {
   Vector value, slope;
 };
 
-/// Adds what one membrane does to another.
+/// Adds the potential of one membrane at the points of another.
 void add_potential(const ContactParameters& contact, const SourceNodes& nodes, const Ball& of_nodes,
                    const Ball& of_targets, const Surface& s, PotentialOfOthers& w) {
   const double reach = kReach * contact.range;

@@ -41,7 +41,7 @@ class ElectricField : public Effect {
     }
     return d;
   }
-  /// A field that is reversed reverses V_m.
+  /// Reversing the field reverses V_m.
   [[nodiscard]] int potential_sign(const Reflection& g) const override {
     constexpr double kRounding = 1e-12;
     const Vector3& field = electric_.field;

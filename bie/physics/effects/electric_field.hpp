@@ -4,11 +4,11 @@
 
 namespace vehd {
 
-/// The field with the charging of the membrane.
+/// Registration of the applied field, with the charging of the membrane.
 EffectRow applied_field_row();
-/// A current that the membrane pumps.
+/// Registration of the pump current.
 EffectRow pump_row();
-/// Properties of the membrane that differ from place to place.
+/// Registration of spatially varying properties of the membrane.
 EffectRow spatial_variation_row();
 
 }  // namespace vehd

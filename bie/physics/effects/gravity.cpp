@@ -10,7 +10,7 @@ EffectDescription GravityEffect::description() const {
 
 void GravityEffect::add(const EffectInput& input, Forcing& forcing) const {
   const Surface& s = input.membrane.surface;
-  // Any constant may be added to g·x: about the centre the numbers stay small.
+  // A constant added to g·x only changes the pressure; from the centroid the heights stay small.
   const Vector3 centre = centroid(s);
   const Vector height = (s.position.rowwise() - centre.transpose()) * parameters_.acceleration;
   forcing.force += (parameters_.density_difference * height).asDiagonal() * s.normal;

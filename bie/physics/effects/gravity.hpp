@@ -4,8 +4,8 @@
 
 namespace vehd {
 
-/// Body force on the inner fluid beyond that on the outer one, (ρ_i − ρ_e) g. As its gradient parts balance in either
-/// fluid, it acts as f_g = (ρ_i − ρ_e)(g·x) n on the membrane; the total is (ρ_i − ρ_e) g V.
+/// Body force on the inner fluid minus that on the outer one, (ρ_i − ρ_e) g. Pressure balances it within either fluid,
+/// so that it acts as f_g = (ρ_i − ρ_e)(g·x) n on the membrane; the total is (ρ_i − ρ_e) g V.
 /// Density difference times acceleration is a force per volume.
 struct GravityParameters {
   double density_difference = 0.0;  ///< ρ_i − ρ_e

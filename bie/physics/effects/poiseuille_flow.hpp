@@ -5,16 +5,16 @@
 
 namespace vehd {
 
-/// Unbounded Poiseuille flow along a unit vector d, v = waveform(t) centre_velocity (1 − |x − (x·d) d|²/radius²) d: no
-/// wall stands at `radius`, it only sets the curvature of the profile. Between planes of a unit normal m it is
-/// 1 − (x·m)²/radius² instead.
+/// Unbounded Poiseuille flow along a unit vector d, v = waveform(t) centre_velocity (1 − |x − (x·d) d|²/radius²) d:
+/// there is no wall at `radius`, which only sets the curvature of the profile. Between planes with unit normal m the
+/// profile is 1 − (x·m)²/radius² instead.
 /// centre_velocity in length/time, radius in length.
 struct PoiseuilleParameters {
   double centre_velocity = 1.0;
   double radius = 1.0;
   Waveform waveform{};
   Vector3 direction = Vector3::UnitX();
-  std::optional<Vector3> across{};  ///< m; absent: the flow is that through a tube
+  std::optional<Vector3> across{};  ///< m; absent: flow through a tube
 };
 
 /// Adds the flow of PoiseuilleParameters to the velocity of the undisturbed fluid: quadratic in x, evaluated on the

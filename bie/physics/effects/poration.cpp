@@ -22,7 +22,7 @@ PorationReaction::Slope MembranePorosity::target(double potential) const {
 }
 
 PorationReaction::Slope MembranePorosity::conductance(double porosity) const {
-  // A cut spectrum can leave less than none.
+  // Truncation can make the porosity negative.
   return porosity > 0.0 ? Slope{p_.conductance * porosity, p_.conductance} : Slope{};
 }
 
@@ -33,7 +33,7 @@ double MembranePorosity::rate(double porosity, double potential) const {
 
 PorationReaction::Slope MembranePorosity::implicit_step(double known, double dt, double potential) const {
   const Slope beta = target(potential);
-  // The step does not pass β, so its branch is that of where it starts.
+  // An implicit step does not overshoot β, so the sign of β − X at its start selects the branch.
   const double share = dt / (known < beta.value ? p_.poration_time : p_.resealing_time);
   return {(known + share * beta.value) / (1.0 + share), share / (1.0 + share) * beta.slope};
 }
@@ -54,7 +54,7 @@ EffectDescription MembranePorosity::description() const {
 
 namespace {
 
-/// u with u + exp(u) = z, by Newton's method from above, which falls towards it.
+/// Solution u of u + exp(u) = z, by Newton's method from above, which decreases monotonically.
 double log_of_product_log(double z) {
   double u = z > 1.0 ? std::log(z) : z;
   constexpr int kMost = 64;
@@ -74,7 +74,7 @@ double pore_conductance(double radius, double thickness, double conductivity) {
 }
 
 double pore_conductivity(double inside, double outside) {
-  // (x − 1)/ln x = expm1(y)/y of y = ln x, 1 where both are the same.
+  // (x − 1)/ln x = expm1(y)/y with y = ln x; 1 if both are equal.
   const double y = std::log(outside / inside);
   return y == 0.0 ? inside : inside * std::expm1(y) / y;
 }
@@ -93,8 +93,7 @@ PorationReaction::Slope PoreDensity::implicit_step(double known, double dt, doub
   const double square = std::pow(potential / p_.potential, 2);
   const double share = dt * p_.creation_rate / p_.rest_density;
   const double lost = share * std::exp((1.0 - p_.exponent) * square);
-  // With w = share·exp(square − s), the number of pores made over those there: w + ln w = ln share + square + lost −
-  // known.
+  // With w = share·exp(square − s), the ratio of new to existing pores: w + ln w = ln share + square + lost − known.
   const double log_made = log_of_product_log(std::log(share) + square + lost - known);
   const double made = std::exp(log_made);
   const double by_potential = 2.0 * potential / (p_.potential * p_.potential);
@@ -102,10 +101,10 @@ PorationReaction::Slope PoreDensity::implicit_step(double known, double dt, doub
 }
 
 double PoreDensity::limited(double from, double to) const {
-  // Where V rises by this the creation of pores rises by the factor e.
+  // An increase of |V| by this raises the creation rate of pores by the factor e.
   const double width = 0.5 * p_.potential * p_.potential / std::max(std::abs(from), p_.potential);
   const double change = to - from;
-  // Towards less there is nothing to run away.
+  // Newton's method cannot overshoot towards smaller |V|.
   if (std::abs(to) <= std::abs(from) || std::abs(change) <= 2.0 * width) return to;
   return from + std::copysign(width * (1.0 + std::log(std::abs(change) / width)), change);
 }

@@ -6,19 +6,18 @@
 
 namespace vehd {
 
-/// When a membrane is said to porate; nothing follows from it. At least one of the two.
+/// Thresholds above which poration is reported; they do not affect the dynamics. At least one of the two is set.
 struct PorationCriterion {
   std::optional<double> potential{};  ///< V_c of |V_m|
   std::optional<double> tension{};    ///< λ_c of λ + ½ C_m V_m²
   bool operator==(const PorationCriterion&) const = default;
 };
 
-/// The porated state of a membrane, which raises its conductance: a number s at every material point, driven by V_m
-/// there.
+/// Poration of a membrane, which raises its conductance: a state s at every material point, driven by V_m there.
 ///
 ///   ds/dt = r(s, V),  current through the membrane (G_m + g(s)) V
 ///
-/// Every function is that of one point.
+/// All functions refer to one material point.
 class PorationReaction : public Effect {
  public:
   /// A value with its slope.
@@ -36,7 +35,7 @@ class PorationReaction : public Effect {
   /// The s that solves s − dt r(s, V) = known, and ds/dV, which has the sign of V.
   /// @param dt  > 0, of any size
   [[nodiscard]] virtual Slope implicit_step(double known, double dt, double potential) const = 0;
-  /// A potential on the way from one to another, up to which the slopes at the former still say something.
+  /// Potential between `from` and `to` up to which the slopes at `from` are useful, for Newton's method.
   [[nodiscard]] virtual double limited(double from, double to) const = 0;
   /// Value in the history: the porosity, or the density of pores.
   [[nodiscard]] virtual double measure(double s) const = 0;
@@ -69,7 +68,7 @@ class MembranePorosity : public PorationReaction {
   [[nodiscard]] EffectDescription description() const override;
 
  private:
-  /// β with its slope by V.
+  /// β and dβ/dV.
   [[nodiscard]] Slope target(double potential) const;
 
   PorosityParameters p_;
@@ -89,12 +88,12 @@ struct PoreParameters {
 /// g_p = 2π r² σ_p/(π r + 2h) of a pore of radius r through a membrane of thickness h.
 /// Source: DeBruin and Krassowska 1999
 double pore_conductance(double radius, double thickness, double conductivity);
-/// σ_p = (σ_e − σ_i)/ln(σ_e/σ_i), of fluids that both conduct.
+/// σ_p = (σ_e − σ_i)/ln(σ_e/σ_i), for two conducting fluids.
 /// Source: DeBruin and Krassowska 1999
 double pore_conductivity(double inside, double outside);
 
-/// The state is s = ln(N/N_0), which is smooth where N itself rises by orders of magnitude within a few degrees of
-/// latitude, and which no truncation makes negative.
+/// The state is s = ln(N/N_0), which is smooth where N rises by orders of magnitude within a few degrees of latitude; N
+/// stays positive under truncation of s.
 /// Accuracy: implicit steps to rounding; N at a point in a varying potential to 1e-8
 /// (tests/physics/poration_reaction_test.cpp)
 /// Source: DeBruin and Krassowska 1999

@@ -4,8 +4,8 @@
 
 namespace vehd {
 
-/// Bending energy κ_B ∫ (H − c)² dA with a preferred mean curvature c (H = −1 on the unit sphere). On top of the
-/// bending force of c = 0 it exerts f_c = −2 κ_B c (K − c H) n.
+/// Bending energy κ_B ∫ (H − c)² dA with a preferred mean curvature c (H = −1 on the unit sphere). It adds
+/// f_c = −2 κ_B c (K − c H) n to the bending force of c = 0.
 /// Source: Helfrich 1973, with the sign H = −1 on the unit sphere
 struct SpontaneousCurvatureParameters {
   double bending_modulus = 0.0;  ///< κ_B

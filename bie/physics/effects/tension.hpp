@@ -25,7 +25,7 @@ Vector weighted_divergence(const Membrane& membrane, const SphereDerivatives& ve
 /// @param tension  λ, coefficients [n_coefficients]
 double mean_tension(const SphereTransform& fine, const Surface& surface, const Vector& tension);
 
-/// The mean of ∇_γ·u over the area: its relative rate of change.
+/// Mean of ∇_γ·u over the area, which is the relative rate of change of the area.
 /// @param velocity  coefficients, [n_coefficients x 3]
 double dilation(const Membrane& membrane, const Matrix& velocity);
 

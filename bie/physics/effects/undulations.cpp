@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kUndulations = "undulations";
 
-/// c of a closed vesicle.
+/// c for a closed vesicle.
 constexpr double closed_vesicle = 0.1;
 
 }  // namespace
@@ -37,8 +37,8 @@ double AreaLaw::tension(double area) const {
   const double strain = area / rest_area_ - 1.0;
   if (logarithm_share_ == 0.0) return strain / stretch_;
   if (stretch_ == 0.0) return std::expm1(strain / logarithm_share_) / per_tension_;
-  // α = a s + b (e^s − 1) with s = ln(1 + c σ A_0/κ_c) grows with s and is convex: from above, Newton's method falls to
-  // the root.
+  // α = a s + b (e^s − 1) with s = ln(1 + c σ A_0/κ_c) increases with s and is convex: from above, Newton's method
+  // decreases monotonically to the root.
   const double a = logarithm_share_, b = stretch_ / per_tension_;
   double s = strain > 0.0 ? std::min(strain / a, std::log1p(strain / b)) : 0.0;
   for (;;) {
@@ -55,7 +55,7 @@ double AreaLaw::least_tension() const {
 Undulations with_rest_area(Undulations undulations, double area) {
   if (undulations.rest_area > 0.0) return undulations;
   undulations.rest_area = area;
-  // α depends on A_0 through its logarithm alone: every pass brings two digits or more.
+  // α depends on A_0 only through its logarithm: every pass gains two digits or more.
   constexpr int passes = 20;
   for (int pass = 0; pass < passes; ++pass) {
     undulations.rest_area *= area / AreaLaw(undulations).area(undulations.reference_tension);

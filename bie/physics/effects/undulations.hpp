@@ -9,20 +9,20 @@ namespace vehd {
 ///
 /// α(σ) = A/A_0 − 1 = k_BT/(8πκ_c) ln(1 + c σ A_0/κ_c) + σ/K_A, c = 0.1.
 ///
-/// At σ = −κ_c/(c A_0), where the logarithm diverges, a compressed membrane buckles: however small its area is, the
-/// tension stays above.
-/// Accuracy: rounding; tension and area are inverse to 1e-12 (tests/physics/undulations_test.cpp)
+/// At σ = −κ_c/(c A_0) the logarithm diverges and a compressed membrane buckles: the tension stays above this value at
+/// any area.
+/// Accuracy: rounding; `tension` and `area` are inverse to each other to 1e-12 (tests/physics/undulations_test.cpp)
 /// Source: Evans and Rawicz 1990, with c of a closed vesicle
 class AreaLaw {
  public:
   explicit AreaLaw(const Undulations& undulations);
 
   [[nodiscard]] double rest_area() const { return rest_area_; }
-  /// A of a tension above the least one.
+  /// A at a tension above least_tension().
   [[nodiscard]] double area(double tension) const;
-  /// dA/dσ at a tension above the least one.
+  /// dA/dσ at a tension above least_tension().
   [[nodiscard]] double slope(double tension) const;
-  /// The inverse of `area`, of every area > 0.
+  /// Inverse of `area`, for every area > 0.
   [[nodiscard]] double tension(double area) const;
   /// −κ_c/(c A_0); −∞ without undulations.
   [[nodiscard]] double least_tension() const;
@@ -34,7 +34,7 @@ class AreaLaw {
   double stretch_;          // 1/K_A
 };
 
-/// With A_0: the one that is given, or that of a membrane which has this area under the reference tension.
+/// The parameters with A_0: as given, or else so that the membrane has this area under the reference tension.
 Undulations with_rest_area(Undulations undulations, double area);
 
 EffectRow undulations_row();

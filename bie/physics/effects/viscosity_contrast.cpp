@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kViscosityContrast = "viscosity contrast";
 
-/// Orthonormal basis of the translations and rotations among the unknowns.
+/// Orthonormal basis of the translations and rotations, restricted to the unknowns.
 Matrix rigid_motions(const Matrix& position, double radius, const std::vector<Index>& entries) {
   Matrix centred = position / radius;
   centred.row(0).setZero();
@@ -31,11 +31,11 @@ Matrix rigid_motions(const Matrix& position, double radius, const std::vector<In
     motions.col(axis) = translation.reshaped()(entries);
     motions.col(axis + 3) = rotation.reshaped()(entries);
   }
-  // Motions that the symmetry excludes leave nothing but rounding.
+  // Motions that the symmetry excludes are zero up to rounding.
   Eigen::ColPivHouseholderQR<Matrix> factor;
   factor.setThreshold(1e-9);
   factor.compute(motions);
-  // Of no columns Eigen would offset a null pointer.
+  // With no columns Eigen would offset a null pointer.
   if (factor.rank() == 0) return Matrix(motions.rows(), 0);
   return factor.householderQ() * Matrix::Identity(motions.rows(), factor.rank());
 }
@@ -49,10 +49,10 @@ ViscosityContrast::ViscosityContrast(const ViscosityContrastParameters& paramete
   const double ratio = parameters.ratio;
   if (!(ratio >= 0.0)) throw InputError(fmt::format("viscosity ratio is {} but must not be negative", ratio));
   unknowns_ = subspace.vectors();
-  // A square root scales exactly with powers of two, a cube root does not.
+  // From the area, because a square root scales exactly with powers of two and a cube root does not.
   const double radius = std::sqrt(surface_area(surface) / (4.0 * std::numbers::pi));
   rigid_ = rigid_motions(fine.analyze(surface.position), radius, unknowns_);
-  // Of degree p, as v is: the product with its coefficients is the flux of v.
+  // Truncated to degree p, as v is: its product with the coefficients of v is the flux of v.
   const Matrix area_vector = fine.analyze(surface.area_element.asDiagonal() * surface.normal);
   const Vector flux = Vector(area_vector.reshaped()(unknowns_)).normalized();
 
@@ -62,9 +62,9 @@ ViscosityContrast::ViscosityContrast(const ViscosityContrastParameters& paramete
   system.noalias() += defect * rigid_.transpose();
   const Vector outflow = system.transpose() * flux;
   system.noalias() -= flux * outflow.transpose();
-  // The operator is ratio + (1 − ratio)(½ − D). Its eigenvalue ratio of the expansion is replaced with 1 below ratio 1,
-  // its eigenvalue 1 of the rigid motions with ratio above (undone in `velocity`): what is factorised, over max(1,
-  // ratio), is well conditioned at any ratio.
+  // The operator is ratio + (1 − ratio)(½ − D). Below ratio 1 its eigenvalue `ratio` of the expansion is replaced by 1;
+  // above, its eigenvalue 1 of the rigid motions is replaced by `ratio` (undone in `velocity`). Divided by max(1,
+  // ratio), the matrix is then well conditioned at any ratio.
   if (ratio > 1.0) {
     system.noalias() -= rigid_ * rigid_.transpose();
     system *= -(1.0 - 1.0 / ratio);

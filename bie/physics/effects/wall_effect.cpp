@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kWall = "wall";
 
-/// The origin of a frame moves the wall along, so that it may be anywhere.
+/// Invariant under translations, because the wall moves with the origin of the frame.
 class WallEffect : public Effect {
  public:
   explicit WallEffect(const Wall& wall) : wall_(wall) {}

@@ -4,7 +4,7 @@
 
 namespace vehd {
 
-/// Images of the membranes in Model::wall.
+/// Registration of Model::wall, in which the membranes have images.
 EffectRow wall_row();
 
 }  // namespace vehd
