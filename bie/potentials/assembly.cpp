@@ -35,33 +35,33 @@ void count_evaluations(const LayerSelection& selection, std::uint64_t evaluation
 
 namespace {
 
-/// How the columns of kernel rows are arranged where there is no symmetry, and the operators that are made of them. The
-/// columns of a symmetric Stokes single layer stand as in the columns of SymmetricBlocks, so that these are pieces of
-/// what the latitudes add up to, and of densities of a high degree nothing is added up for lower ones. Those of other
-/// kernels follow one another, coefficients in the order of coefficient_index.
+/// Arrangement of the columns of kernel rows without symmetry, and the operators made of them. Columns of a symmetric
+/// Stokes single layer are arranged as in SymmetricBlocks, so that its columns are contiguous parts of the sums over
+/// latitudes, and densities of a degree above that of the output are skipped. Columns of other kernels follow one
+/// another, coefficients in the order of coefficient_index.
 class OperatorColumns {
  public:
   /// @param kernels, active  must outlive this
   OperatorColumns(const KernelColumns& kernels, const ActiveCoefficients& active);
 
-  /// A multiple of kLanes.
+  /// Width of the rows, a multiple of kLanes.
   [[nodiscard]] Index width() const { return width_; }
   /// Column of each entry of [kernels * active coefficients], order-major.
   [[nodiscard]] const std::vector<Index>& columns() const { return columns_; }
-  /// What LongitudeSums finds at all latitudes.
+  /// Result of LongitudeSums at all latitudes.
   struct Amplitudes {
     const double* values;
     const std::vector<int>& orders;
   };
-  /// Sums of one mode over latitudes, which become columns of the operators. Threads may share the modes.
+  /// Adds sums of one mode over latitudes to the columns of the operators. Threads may process different modes.
   /// @param analysis  Gauss weight times harmonics of |m|, [latitudes x degrees]
-  /// @param first     nothing has been added before
+  /// @param first     whether nothing has been added before
   void add(const Amplitudes& amplitudes, Index mode, const Matrix& analysis, bool first);
-  /// Once everything is added.
+  /// Returns the operators; must be called once, after everything is added.
   [[nodiscard]] LayerOperators take(const LayerSelection& selection, Index n_coefficients);
 
  private:
-  /// A row of sums: what one coefficient finds, from one column on.
+  /// Stores a row of sums for one output coefficient, from one column on.
   void put(Index out, Index first_column, Index count, const double* from, bool first);
 
   const KernelColumns& kernels_;
@@ -69,7 +69,7 @@ class OperatorColumns {
   std::vector<int> degrees_;  ///< of the active coefficients
   Index width_ = 0;
   Index symmetric_width_ = 0;         ///< of the columns of the Stokes single layer, which come first
-  std::vector<Index> first_columns_;  ///< of each kernel; of the Stokes single layer unused
+  std::vector<Index> first_columns_;  ///< of each kernel; unused for a symmetric Stokes single layer
   std::vector<Index> columns_;
   SymmetricBlocks symmetric_;
   std::vector<Matrix> operators_;  ///< per kernel, transposed
@@ -127,7 +127,7 @@ void OperatorColumns::add(const Amplitudes& amplitudes, Index mode, const Matrix
   const int order = amplitudes.orders[static_cast<std::size_t>(mode)], m = std::abs(order);
   const Index n_modes = std::ssize(amplitudes.orders);
   const Index n_latitudes = analysis.rows(), n_degrees = analysis.cols();
-  // Coefficients of one order stand together in the order-major order.
+  // Coefficients of one order are adjacent in the order-major order.
   const Index own = std::find(active_.m.begin(), active_.m.end(), order) - active_.m.begin();
   std::vector<double> sums(static_cast<std::size_t>(n_degrees * LongitudeSums::kPiece));
   for (Index column = 0; column < width_; column += LongitudeSums::kPiece) {
@@ -178,9 +178,9 @@ LayerOperators OperatorColumns::take(const LayerSelection& selection, Index n_co
   return result;
 }
 
-/// How many latitudes are analysed together: at high degrees the amplitudes of all would take twice the memory of the
-/// operators, and adding up the operators in parts takes little time beside the kernels.
-/// @param values_each  of one latitude
+/// Number of latitudes analysed together: at high degrees the amplitudes of all would take twice the memory of the
+/// operators, and summing the operators in parts takes little time compared with the kernels.
+/// @param values_each  number of amplitudes of one latitude
 int latitudes_at_once(int n_latitudes, int images_each, Index values_each) {
   constexpr Index most_values = Index{1} << 25;  // 256 MB
   const auto room = static_cast<int>(std::clamp<Index>(most_values / (images_each * values_each), 1, n_latitudes));
@@ -206,7 +206,7 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   OperatorColumns operators(kernels, active);
   const std::vector<Index>& columns = operators.columns();
   const Index width = operators.width(), n_entries = std::ssize(columns);
-  // Images are made of whole rows in the order of kernels and coefficients.
+  // Images are computed from whole rows in the order of kernels and coefficients.
   const bool has_images = std::ssize(images.originals()) < grid.n_phi;
   TargetSweep::RowLayout layout{width, {}, true};
   if (has_images) {
@@ -223,7 +223,7 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
   Vector amplitudes;
   for (int first = 0; first < sweep.n_latitudes(); first += at_once) {
     const TargetSweep::Latitudes block{first, std::min(first + at_once, sweep.n_latitudes())};
-    // Those that are swept, and after them their images.
+    // Swept latitudes, then their images.
     std::vector<Index> latitudes(block.count());
     std::iota(latitudes.begin(), latitudes.end(), Index{first});
     if (images.flip()) {

@@ -11,10 +11,10 @@ namespace vehd {
 
 namespace {
 
-/// Columns of all sources that are turned together: with two arrays of them second-level cache is full at degree 24.
+/// Columns of all sources rotated together: two arrays of this width fill the second-level cache at degree 24.
 constexpr Index kTogetherTurned = 32;
 
-// Turnable order: of degree l the cosines of m = 0..l, then the sines of m = 1..l.
+// Turnable order: per degree l the cosines of m = 0..l, then the sines of m = 1..l.
 Index cosine_at(int l, int m) { return Index{l} * l + m; }
 Index sine_at(int l, int m) { return Index{l} * l + l + m; }
 
@@ -26,11 +26,11 @@ double binomial(int n, int k) {
 
 }  // namespace
 
-/// What a number of sources need, one behind the other in the columns.
+/// Workspace for several sources, whose columns follow one another.
 struct AxisTranslation::Batch {
   Vector values, spare;
   Vector cosine, sine;  ///< of m times the polar angle, of each column
-  /// Of m times the azimuth, of each source.
+  /// Cosine and sine of m times the azimuth, for each source.
   Matrix azimuth_cosine, azimuth_sine;
   explicit Batch(int degree)
       : values(n_solid(degree) * kTogetherTurned),
@@ -84,7 +84,7 @@ RowMatrix AxisTranslation::turnable(const Matrix& moments) const {
 
 void AxisTranslation::quarter_turn(int degree, bool back, const double* from, double* to) const {
   constexpr Index kWidth = kTogetherTurned;
-  // Entries vanish where the two orders and the degree add up to an odd number, of sines to an even one.
+  // Entries vanish if both orders and the degree add up to an odd number, those of sines if to an even one.
   const auto product = [&](const Matrix& table, Index row, Index first_after, Index first_before) {
     const Index n = table.rows();
     const Index after = (n - first_after + 1) / 2, before = (n - first_before + 1) / 2;
@@ -126,7 +126,7 @@ void AxisTranslation::along_axis(int degree, double* values, double* spare) cons
 
 namespace {
 
-/// Of a way: its length, and the turns that make it the axis.
+/// Length of a translation, and the angles of the rotation that takes it to the axis.
 struct WayAngles {
   double distance, cosine_polar, sine_polar, cosine_azimuth, sine_azimuth;
 
@@ -134,13 +134,13 @@ struct WayAngles {
     const double across = std::hypot(offset.x(), offset.y());
     cosine_polar = offset.z() / distance;
     sine_polar = across / distance;
-    // A quarter turn less than the azimuth.
+    // The azimuth minus a quarter turn.
     cosine_azimuth = across > 0.0 ? offset.y() / across : 0.0;
     sine_azimuth = across > 0.0 ? -offset.x() / across : -1.0;
   }
 };
 
-/// Cosines and sines of multiples.
+/// Cosines and sines of multiples of an angle.
 struct Multiples {
   double cosine, sine, c = 1.0, s = 0.0;
 
@@ -151,7 +151,7 @@ struct Multiples {
   }
 };
 
-/// Harmonics of a rotation about z, in place: all degrees at all columns.
+/// Rotates harmonics about z in place: all degrees, all columns.
 void turn_about_axis(int degree, const Vector& cosine, const Vector& sine, bool back, double* values) {
   constexpr Index kWidth = kTogetherTurned;
   const double sign = back ? -1.0 : 1.0;

@@ -13,9 +13,9 @@ namespace vehd {
 
 namespace {
 
-/// Pairs that need more are near: rows over the coefficients cost as much then.
+/// Pairs that need a higher degree count as near: rows over the coefficients then cost as little.
 constexpr int kHighestDegree = 24;
-/// Slopes, and densities without a mean, lose so many degrees against potentials of a charge.
+/// Additional degrees that slopes, and densities without a mean, need compared with the potential of a charge.
 constexpr int kMoreDegrees = 2;
 constexpr double kPi = std::numbers::pi;
 
@@ -172,7 +172,7 @@ std::vector<Matrix> FarExpansions::local(const std::vector<Matrix>& moments, boo
   return result;
 }
 
-/// Stokes layers are four harmonic functions,
+/// Stokes layers are combinations of four harmonic functions A_1, A_2, A_3, B,
 ///   u_i = A_i − x_j ∂_i A_j + ∂_i B,
 /// x from the centre. f_i/r + r_i r·f/r³ has A = f/r, B = y·f/r; 3 r_i r_j r_k S_jk/r⁵ with S = ½(v nᵀ + n vᵀ) has
 /// A_j = S_jk ∂(1/r)/∂y_k, B = y_j A_j.
@@ -208,7 +208,7 @@ std::vector<Matrix> FarExpansions::apply(PairLayer layer, const std::vector<Matr
   for (std::size_t b = 0; b < places_.size(); ++b) {
     if (densities[b].size() > 0 && partition_.is_local(b)) moments[b] = moments_of(layer, places_[b], densities[b]);
   }
-  // With lengths over scale_.
+  // Prefactors for lengths divided by scale_.
   const double of_single = 1.0 / (4.0 * kPi * scale_);
   const std::array factors{of_single,       of_single / scale_, of_single / scale_, of_single / (scale_ * scale_),
                            0.5 * of_single, of_single / scale_};

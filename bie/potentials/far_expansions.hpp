@@ -17,16 +17,16 @@ struct ExpandedMembrane {
   Matrix points, normals;  ///< of the targets, [n_targets x 3]; normals of any length
 };
 
-/// Layers of many membranes at points of others that are far from them: of each the moments about its centre, from
-/// these local coefficients about the centres of the others, and values from those. The degree of every pair follows
-/// from its distance.
-/// Accuracy: the tolerance relative to the potential of the density at the distance of the centre; direct sums to 1e-9
-/// (tests/potentials/far_expansions_test.cpp)
+/// Layers of many membranes at points of others that are far from them. The moments of each membrane about its centre
+/// are translated to local coefficients about the centres of the others, which give the values there. The degree of
+/// every pair follows from its distance.
+/// Accuracy: the tolerance relative to the potential of the density at the distance of the centre; agrees with direct
+/// sums to 1e-9 (tests/potentials/far_expansions_test.cpp)
 /// Source: Epton and Dembart 1995; Stokes layers as four harmonic functions, Tornberg and Greengard 2008
 class FarExpansions {
  public:
   /// @param tolerance  relative, below 1
-  /// @param partition     which membranes this rank has moments and values of; collective, as are all sums
+  /// @param partition     membranes whose moments and values this rank computes; collective, as are all sums
   FarExpansions(const std::vector<ExpandedMembrane>& membranes, double tolerance, SharedTransforms& transforms,
                 Partition partition = {});
 
@@ -35,13 +35,13 @@ class FarExpansions {
   /// Number of targets in all far pairs of the membranes of this rank.
   [[nodiscard]] Index n_targets() const;
 
-  /// For each membrane of this rank the sum of a layer over all that are far from it, at its points.
-  /// @param densities  see PairLayer; those of its own membranes count, empty ones count as zero
+  /// For each membrane of this rank, a layer at its points summed over all membranes that are far from it.
+  /// @param densities  see PairLayer; only those of this rank's membranes are read, empty ones count as zero
   /// @return           [n_targets x 1], of a Stokes layer [n_targets x 3]
   [[nodiscard]] std::vector<Matrix> apply(PairLayer layer, const std::vector<Matrix>& densities) const;
 
  private:
-  /// Lengths are over scale_. Of membranes of other ranks the first two alone.
+  /// Lengths are divided by scale_. Only the first three members are set for membranes of other ranks.
   struct Place {
     Vector3 centre;
     double radius;
@@ -63,11 +63,11 @@ class FarExpansions {
   [[nodiscard]] int degree_of(const Place& a, const Place& b) const;
   [[nodiscard]] Matrix dipole_moments(const Place& place, const std::vector<Matrix>& components) const;
   /// @param moments     of each membrane, [n_solid x columns] or empty
-  /// @param is_stokes   the last of four columns is about the centre of its source
+  /// @param is_stokes   four columns, the last of which refers to the centre of its source
   [[nodiscard]] std::vector<Matrix> local(const std::vector<Matrix>& moments, bool is_stokes) const;
   /// Moments of one membrane.
   [[nodiscard]] Matrix moments_of(PairLayer layer, const Place& place, const Matrix& density) const;
-  /// A layer without its factor at the targets of one membrane, from local coefficients.
+  /// A layer without its prefactor at the targets of one membrane, from local coefficients.
   [[nodiscard]] Matrix values_of(PairLayer layer, const Place& place, const Matrix& coefficients) const;
 
   Partition partition_;
@@ -75,7 +75,7 @@ class FarExpansions {
   AxisTranslation translation_;
   std::vector<Eigen::SparseMatrix<double>> derivative_;
   std::vector<Place> places_;
-  std::vector<std::vector<FarSource>> far_from_;  ///< of each membrane the others, by degree
+  std::vector<std::vector<FarSource>> far_from_;  ///< for each membrane those far from it, by degree
 };
 
 }  // namespace vehd

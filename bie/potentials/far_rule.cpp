@@ -18,7 +18,7 @@ struct NodeSeparation {
   Few x, y, z, inverse;  ///< r and 1/|r|
   Few nx, ny, nz;        ///< J n(y)
 
-  // In registers: called, it would go through memory.
+  // Inlined to stay in registers; a call would pass it through memory.
   [[gnu::always_inline]] NodeSeparation(const Matrix& at, Index i, const Vector3& target)
       : x(target[0] - few(at.col(0).data() + i)),
         y(target[1] - few(at.col(1).data() + i)),
@@ -95,7 +95,7 @@ void sum_nodes(const Matrix& at, const Matrix& points, Index first, double prefa
   }
 }
 
-/// The same for all targets: term(separation, node, target), [n_targets x kComponents].
+/// sum_nodes() for all targets, with term(separation, node, target); [n_targets x kComponents].
 template <int kComponents, class Term>
 Matrix node_sums(const Matrix& at, const Matrix& points, double prefactor, const Term& term) {
   constexpr Index kTargets = 2;
@@ -108,7 +108,7 @@ Matrix node_sums(const Matrix& at, const Matrix& points, double prefactor, const
   return result;
 }
 
-/// Σ kernel(r) f. @param kernel  of a target
+/// Σ kernel(r) f. @param kernel  maps a target to its kernel
 template <class Kernel>
 Vector scalar_sums(const Matrix& at, const Matrix& points, const Matrix& charges, const Kernel& kernel) {
   const double* f = charges.data();
@@ -119,7 +119,7 @@ Vector scalar_sums(const Matrix& at, const Matrix& points, const Matrix& charges
       });
 }
 
-/// Σ flow(r, f). @param charges  f, [n_nodes x 3] @param flow  of a target
+/// Σ flow(r, f). @param charges  f, [n_nodes x 3] @param flow  maps a target to its flow
 template <class Flow>
 Matrix flow_sums(const Matrix& at, const Matrix& points, const Matrix& charges, double prefactor, const Flow& flow) {
   const double *fx = charges.col(0).data(), *fy = charges.col(1).data(), *fz = charges.col(2).data();
@@ -137,7 +137,7 @@ void scalar_kernels(const Matrix& at, const Vector3& target, const Kernel& kerne
   }
 }
 
-/// That of a Stokes double layer: xx, xy, xz, yy, yz, zz behind one another.
+/// The kernel of the Stokes double layer at the nodes: xx, xy, xz, yy, yz, zz one after another.
 void stokes_double_kernels(const Matrix& at, const Vector3& target, double* kernels) {
   for (Index i = 0; i < at.rows(); i += kTogether) {
     const NodeSeparation r(at, i, target);
@@ -151,7 +151,7 @@ void stokes_double_kernels(const Matrix& at, const Vector3& target, double* kern
 FarRule::FarRule(const Matrix& position, const SphereTransform& nodes) : transform_(nodes) {
   const SmoothGrid grid = make_smooth_grid(make_layer_fields(position, {}), nodes);
   n_nodes_ = grid.n_nodes();
-  // Those that fill up the last ones have no weight.
+  // Padding nodes have weight zero.
   const Index n = kTogether * ((n_nodes_ + kTogether - 1) / kTogether);
   nodes_.resize(n, 6);
   nodes_.topRows(n_nodes_) << grid.nodes.leftCols(3), grid.area_vectors;

@@ -8,7 +8,7 @@
 namespace vehd {
 
 /// Layers of one membrane at far points by the smooth rule of one grid.
-/// Accuracy: of the rule, see smooth_sums
+/// Accuracy: that of the rule, see smooth_sums
 /// Source: paper Eqs. (6), (8), (9), (22)
 class FarRule {
  public:
@@ -21,19 +21,19 @@ class FarRule {
 
   /// A density at the nodes times their weights.
   /// @param density  [n_coefficients x fields]
-  /// @return         [n x fields], n the nodes filled up to whole instructions
+  /// @return         [n x fields], n the number of nodes padded to whole registers
   [[nodiscard]] Matrix charges(const Matrix& density) const;
 
-  /// A layer summed over the nodes for targets with normals N there, prefactors included.
+  /// A layer at targets with normals N by sums over the nodes, prefactors included.
   /// @param points, normals   [n_targets x 3]
-  /// @param charges           of its density, see charges()
-  /// @param plane             of images
+  /// @param charges           of the density, see charges()
+  /// @param plane             for images
   /// @return                  [n_targets x 1], of a Stokes layer [n_targets x 3]
   [[nodiscard]] Matrix sums(PairLayer layer, const Matrix& points, const Matrix& normals, const Matrix& charges,
                             const MirrorPlane& plane = {}) const;
 
-  /// A layer at several targets as rows over the coefficients of its density: quadrature and the adjoint of the
-  /// synthesis in one. For N·∇S, N·∇D and the Stokes double layer.
+  /// A layer at several targets as rows over the coefficients of its density: quadrature and adjoint synthesis
+  /// combined. For N·∇S, N·∇D and the Stokes double layer only.
   /// @return [n_coefficients x n_targets * n_rows(layer)], the rows of each target as columns
   [[nodiscard]] Matrix rows(PairLayer layer, const Matrix& points, const Matrix& normals) const;
 
@@ -45,8 +45,8 @@ class FarRule {
  private:
   SphereTransform transform_;
   Index n_nodes_;
-  Matrix nodes_;   ///< y and J n, filled up to whole instructions, [n x 6]
-  Vector weight_;  ///< zero for those
+  Matrix nodes_;   ///< y and J n, padded to whole registers, [n x 6]
+  Vector weight_;  ///< zero for padding
 };
 
 }  // namespace vehd

@@ -9,12 +9,12 @@
 
 namespace vehd {
 
-/// Number of nodes that one instruction handles: as many as a register holds.
+/// Number of nodes that one instruction handles: the doubles of a register.
 constexpr Index kTogether = Eigen::internal::packet_traits<double>::size;
-/// A register of them.
+/// One register of values.
 using Few = Lanes<kTogether>::Values;
 
-/// The kTogether values from an address on.
+/// Loads kTogether values from an address on.
 inline Few few(const double* at) { return Lanes<kTogether>::load(at); }
 
 inline void store(double* at, const Few& values) { Lanes<kTogether>::store(at, values); }
@@ -26,7 +26,7 @@ inline Few inverse_root(const Few& squares) {
   return std::bit_cast<Few>(roots);
 }
 
-/// Sum of the values from number `from` on.
+/// Sum of the values from index `from` on.
 inline double sum(const Few& values, Index from = 0) {
   double result = 0.0;
   for (Index i = from; i < kTogether; ++i) result += values[i];

@@ -33,7 +33,7 @@ SquaredDistance squared_distance(const PointDerivatives& y, const Vector3& targe
   return q;
 }
 
-/// Newton's step, or that of Gauss and Newton where the squared distance is not convex.
+/// Newton step, or Gauss-Newton step if the squared distance is not convex.
 Eigen::Vector2d descent_step(const SquaredDistance& q) {
   constexpr double kLongestStep = 0.3;
   const bool convex = q.hessian.trace() > 0.0 && q.hessian.determinant() > 1e-6 * q.metric.determinant();
@@ -61,18 +61,18 @@ FootPoint foot_point_at(const TangentFrame& direction, const PointDerivatives& y
   return foot;
 }
 
-/// One search for a nearest point: it asks for the derivatives at a point, is told them, and asks again.
+/// One search for a nearest point: query() is where derivatives are needed next, supply() takes them.
 class FootSearch {
  public:
   FootSearch(const Vector3& start, const Vector3& target) : target_(target), asked_(point_of(start)) {}
 
   [[nodiscard]] bool is_done() const { return done_; }
-  /// Where derivatives are wanted.
+  /// Point at which derivatives are needed.
   [[nodiscard]] const SpherePoint& query() const { return asked_.point; }
 
   void supply(PointDerivatives y) {
     const SquaredDistance q = squared_distance(y, target_);
-    // The square of a tiny distance is flat to rounding: the gradient decides when the value cannot.
+    // The square of a tiny distance is flat to rounding: then the gradient decides.
     const bool nearer = steps_ == 0 || q.value <= q_.value || q.gradient.norm() < q_.gradient.norm();
     if (!nearer && halvings_ < kMaxHalvings && !last_) {
       step_ *= 0.5;
@@ -93,7 +93,7 @@ class FootSearch {
 
   /// @throws ConvergenceError after too many steps
   [[nodiscard]] FootPoint result() const {
-    // Near a centre of curvature the distance hardly depends on the point, and any point close to nearest serves.
+    // Near a centre of curvature the distance hardly depends on the point, and any nearly nearest one will do.
     constexpr double kFlatGradient = 1e-3;
     if (!converged_ && q_.gradient.norm() > kFlatGradient * std::sqrt(2.0 * q_.value * q_.metric.trace())) {
       throw ConvergenceError(
@@ -149,16 +149,16 @@ std::vector<FootPoint> find_foot_points(const Matrix& position, const Matrix& st
 namespace {
 
 constexpr double kNodeGrowth = 1.25;
-/// Finest grading, t = 2^−50: beyond it every distance is rounding.
+/// Finest grading, t = 2^−50: smaller distances are rounding.
 constexpr int kFinestLevel = 50;
 
-/// As make_graded_rule needs it.
+/// Rounds up to a multiple of four, as make_graded_rule requires.
 int multiple_of_four(double n) { return 4 * static_cast<int>(std::ceil(0.25 * n)); }
 int least_n_theta(int order, int level) { return static_cast<int>(std::ceil(1.15 * order)) + 8 + level; }
 int least_n_phi(int order) { return 2 * order + 12; }
 
-/// Levels of the azimuthal ladder above the least node count: along a circle about the pole |x − y| oscillates with the
-/// ratio of the stretches, and the trapezoidal rule gains the factor (a + b)/(a − b) with every two nodes.
+/// Powers of kNodeGrowth above the least azimuthal node count: along a circle about the pole |x − y| oscillates with
+/// the ratio of the stretches a ≥ b, and every two nodes reduce the error of the trapezoidal rule by (a + b)/(a − b).
 int azimuth_level(const FootPoint& foot, int least, double tolerance) {
   constexpr int kHighest = 5;
   const double gain =

@@ -21,7 +21,7 @@ struct FootPoint {
 };
 
 /// The foot point by Newton's method on the sphere from a starting direction: steps along great circles in local
-/// frames, so that poles are ordinary points, each shortened until it brings the surface nearer.
+/// frames, so that poles are ordinary points, each halved until it reduces the distance or the gradient.
 /// @param position  coefficients of the surface, [n_coefficients x 3]
 /// @param start     unit vector of the parametrisation near the foot point
 /// @param target    x, on either side or on the surface, at any distance
@@ -30,14 +30,14 @@ struct FootPoint {
 /// (tests/potentials/foot_point_test.cpp)
 FootPoint find_foot_point(const Matrix& position, const Vector3& start, const Vector3& target);
 
-/// Foot points of many targets, which take their steps together, in a third of the time of find_foot_point.
+/// Foot points of many targets, iterated together, in a third of the time of find_foot_point.
 /// @param position  coefficients of the surface, [n_coefficients x 3]
 /// @param starts   [n x 3]
 /// @param targets  [n x 3]
 /// @throws ConvergenceError naming the first target that needs too many steps
 std::vector<FootPoint> find_foot_points(const Matrix& position, const Matrix& starts, const Matrix& targets);
 
-/// Which graded rules suit a target near a membrane; targets of equal choice share their tables.
+/// Choice of the graded rules for a target near a membrane; targets with equal choices share their tables.
 struct NearRule {
   int level = 0;    ///< grading scale 2^−level
   int azimuth = 0;  ///< azimuthal nodes start at kNodeGrowth^azimuth times the least
@@ -48,16 +48,16 @@ struct NearRule {
 /// The rule for a target with this foot point.
 /// @param order        degree p of surface and densities
 /// @param tolerance    of the rules, relative
-/// @param on_membrane  the target is on the membrane: no distance has to be resolved
+/// @param on_membrane  the target is on the membrane, so that no distance needs to be resolved
 /// Source: Johnston and Elliott 2005 for the grading; error of the trapezoidal rule along circles about the foot point,
 /// Trefethen and Weideman 2014
 NearRule near_rule(const FootPoint& foot, int order, double tolerance, bool on_membrane);
 
-/// The rule of a choice; each stage has a quarter more nodes in either direction than the one before.
+/// Graded rule for a choice; each stage has a quarter more nodes in either direction than the one before.
 /// @param stage  ≥ 0
 GradedRule make_near_rule(int order, const NearRule& choice, int stage);
 
-/// The nearest points of the membrane, sought from the nearest nodes of a grid (NearestNodes).
+/// Nearest points of the membrane, searched from the nearest nodes of a grid (NearestNodes).
 /// @param position  coefficients of the membrane, [n_coefficients x 3]
 /// @param nearest   of each target
 /// @param targets   [n x 3]

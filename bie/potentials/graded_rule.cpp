@@ -13,7 +13,7 @@ namespace vehd {
 
 namespace {
 
-/// Columns at a time: what is summed over them stays in cache.
+/// Columns at a time, few enough for their sums to stay in cache.
 constexpr Index kColumns = 24 * kLanes;
 
 }  // namespace
@@ -104,7 +104,7 @@ RowMatrix AzimuthSums::adjoint(const RowMatrix& values) const {
 
 namespace {
 
-/// Nodes away from the pole against nodes towards it; half and twice this need more nodes for the same accuracy.
+/// Slope of s(t) per degree, for nodes away from the pole; half and twice this need more nodes for equal accuracy.
 constexpr double kSlopePerDegree = 0.25;
 
 /// Root t of asinh(t/scale) + slope t = s. In u = asinh(t/scale) the left side is convex, so that Newton's method from
@@ -120,7 +120,7 @@ double graded_angle(double scale, double slope, double s) {
   return scale * std::sinh(u);
 }
 
-/// P_n(cos t) − 1 for n = 0..order by the recurrence of the difference itself: nothing cancels.
+/// P_n(cos t) − 1 for n = 0..order by a recurrence of the difference itself, without cancellation.
 Matrix legendre_minus_one(int order, const Vector& theta) {
   const Eigen::ArrayXd cosine = theta.array().cos();
   const Eigen::ArrayXd cosine_minus_one = -2.0 * (0.5 * theta.array()).sin().square();

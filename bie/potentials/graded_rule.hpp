@@ -9,7 +9,7 @@
 namespace vehd {
 
 /// Fourier sums over the azimuths ψ_k = (k + ½) 2π/n of a graded rule, and their adjoint, of many columns at once:
-/// matrix products over a quarter of the circle, because ψ, π − ψ, π + ψ and −ψ differ in signs alone.
+/// matrix products over a quarter of the circle, because terms at ψ, π − ψ, π + ψ and −ψ differ only in sign.
 /// Accuracy: rounding (tests/potentials/azimuth_sums_test.cpp)
 class AzimuthSums {
  public:
@@ -30,7 +30,7 @@ class AzimuthSums {
   [[nodiscard]] RowMatrix adjoint(const RowMatrix& values) const;
 
  private:
-  /// Modes that are even or odd under ψ → −ψ and under ψ → π − ψ.
+  /// Modes of one parity under ψ → −ψ and one under ψ → π − ψ.
   struct Family {
     Index first = 0, count = 0;  ///< every second mode from the first one
     RowMatrix table;             ///< [quarter x modes]
@@ -38,15 +38,15 @@ class AzimuthSums {
 
   int n_phi_ = 0;
   int order_ = 0;
-  std::array<Family, 4> families_;  ///< cosines of even, of odd, sines of even, of odd m
+  std::array<Family, 4> families_;  ///< cosines of even and odd m, sines of even and odd m
 };
 
 /// Quadrature over the sphere for an integrand that varies over the angle `scale` at the north pole and over 1/order
 /// elsewhere: Gauss-Legendre in s on t = t(s), t the polar angle, with
 ///   s = asinh(t/scale) + order t/4,
 /// times equispaced azimuth. Where |x − y|² ≈ h² + (c t)² the substitution t = scale sinh s puts the complex zeros of
-/// the distance, t = ±i h/c, at Im s ≥ π/2 whenever scale ≤ h/c, hence the rate of convergence hardly depends on h; the
-/// linear term keeps harmonics of degree p resolved away from the pole.
+/// the distance, t = ±i h/c, at Im s ≥ π/2 whenever scale ≤ h/c, so that the rate of convergence hardly depends on h;
+/// the linear term keeps harmonics of degree p resolved away from the pole.
 struct GradedRule {
   Vector theta;   ///< [n_theta]
   Vector weight;  ///< [n_theta], includes sin θ and 2π/n_phi
@@ -54,7 +54,7 @@ struct GradedRule {
   /// Per m tables [3 n_theta x (order + 1 − m)] of T(t) − T(0), dT/dt, m T/sin t, the first to full relative accuracy
   /// also at tiny t.
   std::vector<Matrix> synthesis;
-  std::vector<RowMatrix> adjoint;  ///< the same by rows, filled up with zeros to a multiple of kLanes
+  std::vector<RowMatrix> adjoint;  ///< synthesis by rows, padded with zeros to a multiple of kLanes
   AzimuthSums azimuths;
 
   [[nodiscard]] Index n_nodes() const { return theta.size() * n_phi; }

@@ -27,11 +27,11 @@ struct KernelColumns {
     if (selection.laplace_hypersingular) hypersingular = count++;
   }
 
-  /// Do the kernels hold the normal or the area element at the source?
+  /// Whether the kernels contain the normal or the area element at the source.
   [[nodiscard]] bool need_source_normal() const {
     return double_layer >= 0 || stokes_double >= 0 || hypersingular >= 0 || plain;
   }
-  /// Is the operator of the Stokes single layer symmetric?
+  /// Whether the operator of the Stokes single layer is symmetric.
   [[nodiscard]] bool has_symmetric_stokes() const { return stokes >= 0 && !plain; }
   /// Block xx, xy, xz, yy, yz, zz of a Stokes layer that a column belongs to, −1 for scalar kernels.
   [[nodiscard]] int stokes_block(int column) const {

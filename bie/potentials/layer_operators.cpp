@@ -14,7 +14,7 @@ namespace {
 
 /// Entries below which waking a second thread costs more than it saves.
 constexpr Index kFewSymmetricEntries = 250000;
-/// Columns are shared out in as many parts of equal work, each with sums of its own, whatever the number of threads.
+/// Number of parts of equal work into which columns are split, each with its own sums, for any number of threads.
 constexpr Index kParts = 8;
 
 }  // namespace
@@ -32,7 +32,7 @@ SymmetricBlocks::SymmetricBlocks(std::vector<int> degrees) : degrees_(std::move(
 void SymmetricBlocks::symmetrize() {
   for (Index out = 0; out < size(); ++out) {
     for (int block = 0; block < kBlocks; ++block) {
-      // Each entry of the diagonal is met twice, as row and as column.
+      // Entries of the diagonal are applied twice, as row and as column.
       column(out)[place(block, out)] *= 0.5;
       for (Index in = out + 1; in < n_in(out); ++in) {
         double& above = column(out)[place(block, in)];
@@ -100,7 +100,7 @@ namespace {
 
 /// Matrix entries below which waking a second thread costs more than it saves.
 constexpr Index kParallelEntries = 1000000;
-/// More than the Cartesian components that a solve applies an operator to.
+/// Up to this many densities are multiplied one by one; a solve applies an operator to fewer.
 constexpr Index kFewDensities = 9;
 
 void require_density(const Matrix& density, Index size, const std::vector<Index>& active) {
@@ -122,7 +122,7 @@ Matrix scattered(const Matrix& values, const std::vector<Index>& active, Index s
 /// result = transposedᵗ · density, every entry by one thread.
 template <class Result>
 void multiply(const Matrix& transposed, const Eigen::Ref<const Matrix>& density, Result&& result) {
-  // Read once for each density, a matrix costs as much as the sums while they are few. Of many, a blocked product.
+  // For few densities reading the matrix once each costs no more than the sums; for many a blocked product is faster.
   if (density.cols() > kFewDensities) {
     result = transposed.transpose() * density;
     return;
@@ -146,7 +146,7 @@ Matrix ScalarOperator::apply(const Matrix& density) const {
     return product(parts_[0].transposed, density);
   }
   Matrix result = Matrix::Zero(density.rows(), density.cols());
-  // Parts are many and small, so that rooms of their own would cost as much as their products.
+  // Parts are many and small: allocating workspace for each would cost as much as its product.
   Matrix from(n_coefficients_, density.cols()), to(n_coefficients_, density.cols());
   for (const Part& part : parts_) {
     const auto n = static_cast<Index>(part.indices.size());
@@ -176,7 +176,7 @@ double StokesOperator::multiplications() const {
 
 Matrix StokesOperator::between(Index n_coefficients, const std::vector<Index>& entries) const {
   const std::vector<Index>& known = entries_.empty() ? active_ : entries_;
-  // Where the matrices have each entry, −1: nowhere.
+  // Position of each entry in the matrices, −1 if absent.
   std::vector<Index> place;
   for (const Index entry : entries) {
     const Index wanted = entries_.empty() ? entry % n_coefficients : entry;

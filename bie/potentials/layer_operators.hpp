@@ -13,45 +13,45 @@
 
 namespace vehd {
 
-/// The six blocks xx, xy, xz, yy, yz, zz of a symmetric operator between vector fields, each of them symmetric between
-/// its coefficients, of which every pair is kept once: half the memory that an application streams.
+/// Six blocks xx, xy, xz, yy, yz, zz of a symmetric operator on vector fields. Each block is symmetric in its
+/// coefficients and stores every pair once, which halves the memory that an application reads.
 ///
-/// The single layer is symmetric, its quadrature only up to the aliasing of high degrees: the
-/// rotated rule resolves the product of a kernel with a smooth density, and the targets resolve the result. So
-/// an entry is taken from the finding of the higher degree by a density of the lower one; the other way round, rule and
-/// targets would have to resolve a density of the higher degree. Between coefficients of one degree it is the mean of
-/// both, so that turns of the sphere commute with the choice.
-/// Accuracy: no entry that a smooth density meets is worse than before, the translating prolate keeps 4e-12 at p = 16
+/// The single layer is symmetric; its quadrature is so only up to aliasing of high degrees. The rotated rule resolves
+/// the product of a kernel with a smooth density, and the targets resolve the result. Of two transposed entries the
+/// potential of higher degree of a density of lower degree is therefore used; the other one would require rule and
+/// targets to resolve a density of the higher degree. Between coefficients of one degree the mean of both is used, so
+/// that the choice commutes with rotations of the sphere.
+/// Accuracy: entries that matter for smooth densities lose no accuracy, the translating prolate keeps 4e-12 at p = 16
 /// (tests/potentials/translating_prolate_test.cpp); symmetric to rounding (tests/potentials/stokes_identities_test.cpp)
 class SymmetricBlocks {
  public:
-  /// Coefficients that stand together in a column.
+  /// Number of coefficients stored side by side in a column.
   static constexpr Index kGroup = 8;
   static constexpr int kBlocks = 6;
 
   SymmetricBlocks() = default;
-  /// All columns are to be filled.
+  /// Allocates the columns, all of which must be filled.
   /// @param degrees  of the coefficients, ascending
   explicit SymmetricBlocks(std::vector<int> degrees);
 
   [[nodiscard]] Index size() const { return static_cast<Index>(degrees_.size()); }
-  /// Where the assembly stores coefficient `out` of the potential of densities of its degree and lower ones:
-  /// [groups][blocks][kGroup], finite numbers also where the last group is filled up.
+  /// Column for coefficient `out` of the potentials of densities of its degree and lower ones, filled by the assembly:
+  /// [groups][blocks][kGroup]; symmetrize() clears the padding of the last group.
   [[nodiscard]] double* column(Index out) { return values_.data() + starts_[static_cast<std::size_t>(out)]; }
-  /// Coefficients whose densities the column of `out` has, the highest of the last degree.
+  /// Number of density coefficients in the column of `out`: all up to its degree.
   [[nodiscard]] Index n_in(Index out) const { return ends_[static_cast<std::size_t>(out)]; }
-  /// Place of a block's entry in a column.
+  /// Position of a block's entry in a column.
   [[nodiscard]] static Index place(int block, Index in) {
     return (in / kGroup * kBlocks + block) * kGroup + in % kGroup;
   }
-  /// Values of a column with so many coefficients, groups filled up.
+  /// Number of values in a column of n_in coefficients, with whole groups.
   [[nodiscard]] static Index filled(Index n_in) { return (n_in + kGroup - 1) / kGroup * kGroup * kBlocks; }
-  /// The first coefficient of the group to which a place belongs.
+  /// First coefficient of the group to which a position belongs.
   [[nodiscard]] static Index first_in(Index place) { return place / (kBlocks * kGroup) * kGroup; }
-  /// Once all columns are there and before the first application.
+  /// Must be called once after all columns are filled and before the first application.
   void symmetrize();
 
-  /// Entry of a block, whichever is the larger index.
+  /// Entry of a block, for i and j in either order.
   [[nodiscard]] double at(int block, Index i, Index j) const;
   /// The potential of a density.
   /// @param density  [size x 3]
@@ -63,24 +63,24 @@ class SymmetricBlocks {
   void apply_columns(Index first, Index end, const RowMatrix& density, RowMatrix& sums) const;
 
   std::vector<int> degrees_;
-  std::vector<Index> ends_;  ///< first coefficient of the next degree, for each
+  std::vector<Index> ends_;  ///< for each coefficient, the first one of the next degree
   std::vector<Index> starts_;
-  Vector values_;  ///< columns one behind the other; entries of the diagonal are halved
+  Vector values_;  ///< columns one after another; entries of the diagonal are halved
 };
 
 /// Densities of S, S′ and the Stokes single layer enter weighted: as coefficients of J f, J = W/sin θ (the area element
 /// on the unit sphere), so that ∫ K f dA = ∫ K (J f) dω. The weighted density of a tangential derivative or of a force
 /// is smoother than the density itself, truncation to degree p keeps its integral exactly, and the kernel rows need no
 /// area element. The densities of D and of the Stokes double layer enter plain, because J n(y) belongs to their
-/// kernels. Where a selection says `plain`, J(y) joins the kernels of the others as well, so that nothing of J f is cut
-/// to degree p.
+/// kernels. If a selection is `plain`, J(y) is part of the other kernels as well, so that J f is not truncated to
+/// degree p.
 
 /// Scalar layer operator from coefficients to coefficients of degree p: one matrix for each class of coefficients that
-/// it takes to themselves, all others being zero. Stored transposed, so that applying it runs down contiguous columns.
-/// Coefficients of no class are neither read nor found (they come out zero).
+/// it maps to itself, no coupling between classes. Stored transposed, so that its application reads contiguous columns.
+/// Coefficients outside all classes are not read, and are zero in the result.
 class ScalarOperator {
  public:
-  /// The operator on some coefficients.
+  /// The operator on one class of coefficients.
   struct Part {
     std::vector<Index> indices;  ///< coefficient_index of each row, ascending
     Matrix transposed;
@@ -93,7 +93,7 @@ class ScalarOperator {
 
   [[nodiscard]] bool empty() const { return parts_.empty(); }
   /// The potential of every column of the density.
-  /// @param density  [n_coefficients x n_fields], f or J f as LayerOperators says
+  /// @param density  [n_coefficients x n_fields], f or J f, see LayerOperators
   /// @return         [n_coefficients x n_fields]
   /// @throws ShapeError if the density has another number of coefficients
   [[nodiscard]] Matrix apply(const Matrix& density) const;
@@ -104,20 +104,20 @@ class ScalarOperator {
 };
 
 /// Stokes layer from [n_coefficients x 3] to [n_coefficients x 3]. The kernels of both layers are symmetric in their
-/// two components; the operator of the single layer is symmetric as a whole. The operator on symmetric fields is one
-/// matrix over the entries that these have.
+/// two components; the operator of the single layer is symmetric as a whole. On symmetric fields the operator is one
+/// matrix over the entries that can be nonzero.
 class StokesOperator {
  public:
   StokesOperator() = default;
-  /// @param symmetric  symmetrized
+  /// @param symmetric  after symmetrize()
   /// @param active     as below
   explicit StokesOperator(SymmetricBlocks symmetric, std::vector<Index> active = {})
       : symmetric_(std::move(symmetric)), active_(std::move(active)) {}
   /// @param transposed  blocks xx, xy, xz, yy, yz, zz
-  /// @param active      coefficient_index of each row, or empty if all coefficients are there
+  /// @param active      coefficient_index of each row, or empty if all coefficients are present
   explicit StokesOperator(std::array<Matrix, 6> transposed, std::vector<Index> active = {})
       : transposed_(std::move(transposed)), active_(std::move(active)) {}
-  /// The operator on fields that differ from zero at some entries alone; all others are neither read nor found.
+  /// The operator on fields that are nonzero only at some entries; all others are not read, and are zero in the result.
   /// @param n_coefficients  of each component
   /// @param entries         of the column-major [n_coefficients x 3], ascending
   /// @param transposed      [entries x entries]
@@ -128,18 +128,18 @@ class StokesOperator {
   /// @param density  J f of the force per area for the single layer, the velocity for the double layer,
   ///     [n_coefficients x 3]
   /// @return         velocity, [n_coefficients x 3]
-  /// @throws ShapeError if the density has not three columns, or fewer coefficients than the operator
+  /// @throws ShapeError if the density does not have three columns, or has fewer coefficients than the operator
   [[nodiscard]] Matrix apply(const Matrix& density) const;
   /// The operator between some entries of the column-major [n_coefficients x 3], row: velocity, column: density.
   /// @param n_coefficients  of each component
   /// @param entries         ascending; entries beyond those of the operator give zeros
   /// @return                [entries x entries]
   [[nodiscard]] Matrix between(Index n_coefficients, const std::vector<Index>& entries) const;
-  /// Multiplications of one application.
+  /// Number of multiplications of one application.
   [[nodiscard]] double multiplications() const;
 
  private:
-  /// Coefficients of each component, where there are blocks.
+  /// Number of coefficients per component if there are blocks.
   [[nodiscard]] Index n_rows() const { return std::max(symmetric_.size(), transposed_[0].rows()); }
   [[nodiscard]] Matrix apply_blocks(const Matrix& density) const;
 
@@ -151,7 +151,7 @@ class StokesOperator {
   Matrix on_entries_;
 };
 
-/// Which operators an assembly makes; whatever is false costs nothing.
+/// Operators that an assembly makes; those that are false cost nothing.
 struct LayerSelection {
   bool laplace_single = false;
   bool laplace_double = false;
@@ -162,37 +162,37 @@ struct LayerSelection {
   bool plain = false;  ///< all densities and values are f, not J f
 };
 
-/// Layer operators on the membrane, J f standing for f where they are plain. D, S′ and the Stokes double layer are
-/// principal values: the side-dependent ±½ density of Eq. (11) is the caller's, so that the side is written where it is
-/// chosen. Values are found at the nodes of the grid of order p and projected from there onto degree p.
+/// Layer operators on the membrane; in plain ones J f is replaced by f. D, S′ and the Stokes double layer are principal
+/// values: the caller adds the side-dependent ±½ density of Eq. (11), so that the side is written where it is chosen.
+/// Values are computed at the nodes of the grid of order p and projected onto degree p.
 struct LayerOperators {
   ScalarOperator laplace_single;   ///< J f ↦ S[f], Eq. (8)
   ScalarOperator laplace_double;   ///< f ↦ D[f], Eq. (8), principal value
   ScalarOperator laplace_adjoint;  ///< J f ↦ J S′[f], Eq. (10), principal value; J n(x) is smooth where n(x) is not
   StokesOperator stokes_single;    ///< J f ↦ Stokes single layer, Eq. (6) at μ = 1
   StokesOperator stokes_double;    ///< v ↦ Stokes double layer, stokes_double_kernel, principal value
-  /// f ↦ J D′[f] = J ∫ ∂²G/∂n(x)∂n(y) (f(y) − f(x)) dA, Eq. (10): its quadrature cuts no product of f to degree p.
+  /// f ↦ J D′[f] = J ∫ ∂²G/∂n(x)∂n(y) (f(y) − f(x)) dA, Eq. (10): its quadrature truncates no product of f to degree p.
   ScalarOperator laplace_hypersingular;
 };
 
-/// Kernel evaluations of each selected operator in one assembly: independent targets times the nodes each needs, which
-/// are half of all where the targets lie in a mirror.
+/// Kernel evaluations of each selected operator in one assembly: independent targets times the nodes of each, of which
+/// half suffice if the targets lie in a mirror plane.
 std::uint64_t evaluations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                        const std::vector<Reflection>& reflections, int fold = 1);
 
-/// Counts those of one assembly.
+/// Records the kernel evaluations of one assembly.
 void count_evaluations(const LayerSelection& selection, std::uint64_t evaluations, Instruments& instruments);
 
-/// Assembles the selected operators for one surface at cost O(p^5): each target's kernel row on the rotated
-/// quadrature is taken back to coefficients by the adjoint of "phase shift, Wigner rotation, synthesis", and the rows
-/// of all targets are analysed on the order-p grid.
+/// Assembles the selected operators for one surface at cost O(p^5): each target's kernel row on the rotated quadrature
+/// is converted to coefficients by the adjoint of "phase shift, Wigner rotation, synthesis", and the rows of all
+/// targets are analysed on the order-p grid.
 /// @param transform    between degree p and the grid of order p, whose nodes are the targets; coefficients beyond its
-///                     azimuthal order take no part
+///                     azimuthal order are ignored
 /// @param reflections  maps g with x(g s) = g x(s), closed under composition: targets that are images of one another
 ///                     share one row
 /// @param fold         rotations by 2π/fold about z are such maps as well; it divides the number of longitudes
 /// @param position     coefficients of x, [n_coefficients x 3]
-/// @param instruments  kernel evaluations of every operator are counted there
+/// @param instruments  receives the number of kernel evaluations of every operator
 /// Accuracy: spectral. Eigenvalues of the sphere to 1e-11 for p from 8 to 64
 /// (tests/potentials/sphere_spectrum_test.cpp, tests/potentials/stokes_sphere_test.cpp); Green's representation on
 /// shape (33) at p = 32 to 1e-6 (tests/potentials/laplace_identities_test.cpp)
@@ -202,11 +202,11 @@ LayerOperators assemble_layer_operators(const RotatedQuadrature& quadrature, con
                                         Instruments& instruments, const std::vector<Reflection>& reflections = {},
                                         int fold = 1);
 
-/// The operators of assemble_layer_operators for symmetric surfaces and fields: the Stokes layers between the entries
-/// that fields which are their own image have, the Laplace layers in the classes of SymmetrySubspace. Targets that are
-/// images of one another count as one, and products and matrices shrink with the order of the group.
-/// @param subspace  of the surface and of all fields that meet Stokes layers
-/// @param fold      of the longitudes: turns by 2π/fold that take surface and longitudes to themselves
+/// The operators of assemble_layer_operators for symmetric surfaces and fields: Stokes layers between the entries that
+/// can be nonzero in symmetric fields, Laplace layers in the classes of SymmetrySubspace. Of targets that are images of
+/// one another only one is evaluated, and products and matrices shrink with the order of the group.
+/// @param subspace  of the surface and of all densities of Stokes layers
+/// @param fold      rotations by 2π/fold about z map the surface and the set of longitudes to themselves
 /// Accuracy: rounding; the full operators on symmetric fields to 1e-12 (tests/potentials/symmetric_operators_test.cpp)
 LayerOperators assemble_symmetric_operators(const RotatedQuadrature& quadrature, const SphereTransform& transform,
                                             const Matrix& position, const LayerSelection& selection,

@@ -6,11 +6,11 @@
 
 namespace vehd {
 
-/// Which limit a potential takes at a point on the membrane. Points off the membrane stand on a side of their own.
+/// Limit of a potential at a point on the membrane. The side of other points follows from their position.
 enum class Side { interior, exterior, principal_value };
 
-/// Where each field stands among the columns of a block of quadrature nodes: the position y, its tangents y_1, y_2 in
-/// the frame of the unit sphere, and the values of their densities that the layers need. −1: absent.
+/// Column of each field in a block of quadrature nodes: the position y, its tangents y_1, y_2 in the frame of the unit
+/// sphere, and the densities that the layers need; −1 if absent.
 struct NodeColumns {
   int position = 0;   ///< 3 columns
   int tangent_1 = 3;  ///< 3 columns
@@ -22,7 +22,7 @@ struct NodeColumns {
   bool plain = false;  ///< densities of the single layers are f until weigh_densities()
 };
 
-/// The layers at one target. Scalar ones are first components.
+/// The layers at one target; scalar ones are in the first component.
 struct LayersAt {
   enum Layer : std::size_t {
     single,           ///< ∫ (J f)/|r| dω
@@ -33,7 +33,7 @@ struct LayersAt {
     stokes_double,    ///< ∫ r rᵀ v r·J n/|r|⁵ dω
     count
   };
-  /// Without prefactors in sums, with them elsewhere.
+  /// Without prefactors while summing, with them in results.
   std::array<Vector3, count> of;
   double enclosure = 0.0;  ///< ∫ r·J n/|r|³ dω, with its prefactor D[1]
 
@@ -54,9 +54,9 @@ struct NodeBlock {
 /// @param nodes  columns of the given stride
 void weigh_densities(const NodeColumns& columns, Index n_nodes, Index stride, double* nodes);
 
-/// Adds the block's share for the target at `offset` from the origin of the block's positions.
-/// @param offset  target minus origin of the positions in the block, so that near targets lose no digits
-/// Accuracy: rounding of the sums; vectorised, equal bits for any count of threads
+/// Adds the contribution of the block to a target at `offset` from the origin of the block's positions.
+/// @param offset  target minus origin of the positions in the block, so that no digits cancel for near targets
+/// Accuracy: rounding of the sums; vectorised, bit-identical for any number of threads
 /// Source: paper Eqs. (6), (8); ∇D in the form ∫ ∇G × (n×∇_γ f) dA, as paper Eq. (24)
 void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Vector3& offset, LayersAt& sums);
 
@@ -64,13 +64,13 @@ void add_layer_sums(const NodeColumns& columns, const NodeBlock& nodes, const Ve
 struct LayerDensities {
   Vector laplace_single;   ///< J f, or f where `plain`, [n_coefficients]
   Vector laplace_double;   ///< f, [n_coefficients]
-  Matrix stokes_single;    ///< likewise, [n_coefficients x 3]
+  Matrix stokes_single;    ///< J f, or f where `plain`, [n_coefficients x 3]
   Matrix stokes_double;    ///< v, [n_coefficients x 3]
   bool gradients = false;  ///< of the Laplace layers
-  bool plain = false;      ///< J is multiplied at the nodes, so that nothing of J f is cut to degree p
+  bool plain = false;      ///< f is multiplied by J at the nodes, so that J f is not truncated to degree p
 };
 
-/// Position and densities side by side, rotated and synthesised together, and the node columns that follow.
+/// Coefficients of position and densities side by side, and the node columns that their synthesis gives.
 struct LayerFields {
   Matrix coefficients;  ///< [n_coefficients x fields], the position first
   /// First field of each density, −1 if absent.

@@ -11,7 +11,7 @@ namespace vehd {
 
 namespace {
 
-/// Asks for what stands from there on, none where the count is not positive.
+/// Prefetches `count` numbers from an address on, none if the count is not positive.
 void prefetch_to_write(const double* from, Index count) {
   constexpr Index kCacheLine = 8;
   for (Index i = 0; i < count; i += kCacheLine) __builtin_prefetch(from + i, 1);
@@ -23,7 +23,7 @@ LongitudeSums::LongitudeSums(const SphereGrid& grid, int order) : n_phi_(grid.n_
   require_size("longitudes (even)", grid.n_phi % 2, 0);
   for (const bool sine : {false, true}) {
     for (const int parity : {0, 1}) {
-      const int lowest = sine && parity == 0 ? 2 : parity;  // sin 0φ takes no part
+      const int lowest = sine && parity == 0 ? 2 : parity;  // sin 0φ vanishes
       RowMatrix table((order - lowest + 2) / 2, n_quarter_);
       for (Index i = 0; i < table.rows(); ++i) {
         const int m = lowest + 2 * static_cast<int>(i);
@@ -51,7 +51,7 @@ void LongitudeSums::run(const double* rows, Index width, const Latitude& latitud
       const double *here = at(k), *opposite = at(k + half);
       double *ce = sum(0, k), *co = sum(1, k), *se = sum(2, k), *so = sum(3, k);
       if (k == 0 || 2 * k == half) {
-        // Two of the four longitudes coincide; the sums that these would cancel from are multiplied with zeros.
+        // Two of the four longitudes coincide; the sums that should cancel are multiplied by zeros.
 #pragma omp simd
         for (Index c = 0; c < columns; ++c) {
           ce[c] = se[c] = here[c] + opposite[c];
@@ -71,7 +71,7 @@ void LongitudeSums::run(const double* rows, Index width, const Latitude& latitud
       }
     }
     double* to = amplitudes + (first * latitude.count + latitude.index * columns) * n_modes;
-    // No cache holds where the next piece goes, and nothing foresees it.
+    // The destination of the next piece is in no cache, and the processor cannot predict it.
     const Index next = first + columns, next_columns = std::min(kPiece, width - next);
     prefetch_to_write(amplitudes + (next * latitude.count + latitude.index * next_columns) * n_modes,
                       next_columns * n_modes);

@@ -30,7 +30,7 @@ PairColumns::PairColumns(const PairSelection& selection) {
 
 namespace {
 
-/// What a kernel multiplies at a node.
+/// The factor of a kernel at a node: a density, its difference from that at the foot, or its tangential derivatives.
 enum class NodeFactor { value, difference, tangents };
 
 struct KernelKind {
@@ -38,7 +38,7 @@ struct KernelKind {
   double prefactor;
 };
 
-/// Of every row.
+/// Factor and prefactor of every row.
 std::vector<KernelKind> kinds_of(const PairColumns& columns) {
   constexpr std::array<KernelKind, n_pair_layers> kKinds{{{NodeFactor::value, kLaplacePrefactor},
                                                           {NodeFactor::value, kLaplacePrefactor},
@@ -56,7 +56,7 @@ std::vector<KernelKind> kinds_of(const PairColumns& columns) {
   return kinds;
 }
 
-/// Kernels times weights on one circle of nodes, [columns + 1 x n_theta]: the last row is the second tangent's of the
+/// Kernels times weights on one circle of nodes, [columns + 1 x n_theta]: the last row is for the second tangent in the
 /// normal derivative of D. @return ∫ r·J n/|r|³ of the circle
 double circle_kernels(const NodeColumns& at, const double* nodes, const Vector& weight, const Vector3& offset,
                       const Vector3& normal, const MirroredTarget& mirrored, const PairColumns& columns,
@@ -68,7 +68,7 @@ double circle_kernels(const NodeColumns& at, const double* nodes, const Vector& 
   };
   double angle = 0.0;
   for (Index next = 0; next < n; next += kTogether) {
-    // The last ones begin earlier, so that they end with the circle, and find some of the nodes before them again.
+    // The last register begins earlier, so that it ends with the circle, and recomputes some nodes of the one before.
     const Index i = std::min(next, n - kTogether);
     const auto put = [&](int row, const Few& values) { store(kernels + row * n + i, values); };
     const Few x = offset[0] - field(at.position, i), y = offset[1] - field(at.position + 1, i),
@@ -97,7 +97,7 @@ double circle_kernels(const NodeColumns& at, const double* nodes, const Vector& 
     }
     if (columns.has(stokes_single)) put_blocks(stokes_single, stokeslet(x, y, z, inverse));
     if (columns.has(stokes_double)) put_blocks(stokes_double, stokes_double_kernel(x, y, z, area, inverse));
-    // Column by column of the kernel.
+    // One column of the kernel at a time.
     const auto put_image = [&](PairLayer layer, const auto& flow) {
       for (int column = 0; column < 3; ++column) {
         const auto force = [column](int component) { return Few{} + (component == column ? 1.0 : 0.0); };
@@ -145,7 +145,7 @@ NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vecto
     const Index width = table.cols();
     RowMatrix part = RowMatrix::Zero(2 * columns.count, width);
     Eigen::RowVectorXd tangent(width);
-    // Rows of all columns from that of the circles' mode, by a kind of table.
+    // Legendre sums of `count` columns from one Fourier mode of the circles, with one kind of table.
     const auto sum_circles = [&](Index kind, Index mode, Index column, Index count, double* to) {
       small_product(count, n_theta, width, {circles.row(mode).data() + column * n_theta, n_theta, 1},
                     table.data() + kind * n_theta * width, width, to, width);
@@ -181,15 +181,14 @@ NearRows near_rows(const TargetFrame& frame, const GradedRule& rule, const Vecto
 
 namespace {
 
-/// A target whose row is made of coefficients.
+/// A target that is evaluated by a row over coefficients.
 struct NearTarget {
   Index index = 0;
   FootPoint foot;
   NearRule rule;
 };
 
-/// What a group of targets is integrated by, with the rows of those by which that was found, ascending: these are of
-/// the stage after it.
+/// The rule for a group of targets, with the rows of the targets that it was tested at, by the stage after it.
 struct SettledRule {
   GradedRule rule;
   std::map<std::size_t, NearRows> rows;
@@ -226,7 +225,7 @@ struct NearRowMaker {
     return near_rows(frame, rule, x - target.foot.position, at.normal(target.index), at.plane.target(x), columns);
   }
 
-  /// Largest change of a row from one rule to another, relative to the largest entry of each layer.
+  /// Largest change of an entry from one rule to another, relative to the largest entry of its row.
   [[nodiscard]] static double change(const NearRows& a, const NearRows& b) {
     double largest = 0.0;
     for (Index c = 0; c < a.rows.rows(); ++c) {
@@ -236,7 +235,7 @@ struct NearRowMaker {
     return largest;
   }
 
-  /// The first stage with which the one after it agrees at the targets that are nearest, farthest and between.
+  /// The first stage that agrees with the one after it at the nearest, a middle and the farthest target.
   [[nodiscard]] SettledRule settled_rule(const NearRule& choice, const std::vector<NearTarget>& group) const {
     SettledRule settled{make_near_rule(order, choice, 0), {}, 0};
     std::vector<TargetFrame> frames;
@@ -264,14 +263,14 @@ struct NearRowMaker {
                     at.points(i, 0), at.points(i, 1), at.points(i, 2), group.front().foot.height));
   }
 
-  /// By the settled rule, or by a finer one where D[1] says that this target, which was not asked, needs it.
+  /// Rows by the settled rule, or by a finer one if D[1] shows that this target, which was not tested, needs it.
   [[nodiscard]] NearRows rows_by(const SettledRule& settled, const NearTarget& target) const {
     const TargetFrame frame = frame_of(target);
     NearRows found = rows_of(target, frame, settled.rule);
     for (int stage = settled.stage + 1; std::abs(found.enclosure) > settings.tolerance && stage < settings.max_rules;
          ++stage) {
       NearRows finer = rows_of(target, frame, make_near_rule(order, target.rule, stage));
-      // Rounding, or another part of the membrane that no rule about this point sees.
+      // Rounding, or another part of the membrane that no rule about this point resolves.
       if (!(std::abs(finer.enclosure) < 0.5 * std::abs(found.enclosure))) break;
       found = std::move(finer);
     }
@@ -282,7 +281,7 @@ struct NearRowMaker {
     const Index n = static_cast<Index>(near.size());
     Matrix result(at.source.rows(), n * columns.count);
     Exceptions exceptions(n);
-    // Targets that are looked for together: enough to fill registers, few enough for all threads to have some.
+    // Targets located together: enough to fill registers, few enough to give work to all threads.
     constexpr Index kTogether = 16;
     const Index n_batches = (n + kTogether - 1) / kTogether;
     std::vector<std::vector<NearTarget>> batches(static_cast<std::size_t>(n_batches));
@@ -309,7 +308,7 @@ struct NearRowMaker {
         exceptions.keep(place, [&] {
           const auto known = settled.rows.find(static_cast<std::size_t>(i));
           const NearRows found = known != settled.rows.end() ? known->second : rows_by(settled, members[i]);
-          // A solid angle that is off betrays another part of the membrane that no node has seen.
+          // A wrong solid angle indicates another part of the membrane that the nodes do not resolve.
           constexpr double kEnclosureDefect = 1e-2;
           if (std::abs(found.enclosure) > kEnclosureDefect) {
             throw ConvergenceError(fmt::format("layers {:.3g} from the membrane: another part of it may be as near",

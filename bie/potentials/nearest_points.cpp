@@ -18,7 +18,7 @@ namespace vehd {
 
 namespace {
 
-/// A membrane at nodes that show its shape.
+/// A membrane sampled at nodes that resolve its shape.
 struct SampledMembrane {
   const Matrix& position;
   SphereGrid grid;
@@ -54,7 +54,7 @@ bool is_convex(const Eigen::LLT<Eigen::Matrix4d>& factor, double least) {
   return factor.info() == Eigen::Success && factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() >= least;
 }
 
-/// A point of each membrane with what ½|x − y|² does about them.
+/// A point of each membrane, with ½|x − y|² and its derivatives there.
 struct PointPair {
   TangentFrame u, v;
   PointDerivatives x, y;
@@ -72,7 +72,7 @@ struct PointPair {
 
   [[nodiscard]] double value() const { return 0.5 * r.squaredNorm(); }
 
-  /// Newton's step, its Hessian shifted until it is convex: what results goes downhill.
+  /// Newton step with the Hessian shifted until it is positive definite, hence a direction of descent.
   [[nodiscard]] Eigen::Vector4d step() const {
     constexpr double kLongest = 0.3, kLeastCurvature = 1e-6, kShiftGrowth = 4.0;
     Eigen::Matrix4d hessian;
@@ -113,7 +113,7 @@ bool is_inside(const SampledMembrane& membrane, const FarRule& rule, const Vecto
   if ((point - membrane.middle).norm() > membrane.reach) return false;
   double distance = 0.0;
   const Index node = nearest_node(membrane, point, distance);
-  // About the distance of its nodes.
+  // Approximate spacing of its nodes.
   const double spacing = membrane.reach * std::numbers::pi / static_cast<double>(membrane.grid.n_theta);
   if (distance > 2.0 * spacing) return rule.enclosures(point.transpose())[0] < -0.5;
   constexpr double kTouching = 1e-12;
@@ -170,14 +170,14 @@ ClosestPair closest_pair(const std::vector<Matrix>& membranes) {
     sampled.emplace_back(membrane, found->second);
   }
   struct Candidate {
-    double least;  ///< what the gap is at least
+    double least;  ///< lower bound of the gap
     std::size_t first, second;
   };
   std::vector<Candidate> candidates;
   for (std::size_t b = 0; b < sampled.size(); ++b) {
     for (std::size_t a = 0; a < b; ++a) {
       const double distance = (sampled[a].middle - sampled[b].middle).norm();
-      // The nodes miss a little of what they sample.
+      // The largest node distance slightly underestimates the reach of the surface.
       constexpr double kMissed = 1.05;
       candidates.push_back({distance - kMissed * (sampled[a].reach + sampled[b].reach), a, b});
     }
@@ -200,7 +200,7 @@ Arrangement arrangement_of(const Matrix& first, const Matrix& second) {
   if (of_second == b.nodes.rows() && of_first == 0) return Arrangement::second_is_inside;
   if (of_first == a.nodes.rows() && of_second == 0) return Arrangement::first_is_inside;
   if (of_first > 0 || of_second > 0) return Arrangement::they_meet;
-  // What is thinner than the distance of the nodes may meet between them.
+  // Parts that are thinner than the node spacing may meet between the nodes.
   return nearest_points(first, second).gap > 0.0 ? Arrangement::apart : Arrangement::they_meet;
 }
 

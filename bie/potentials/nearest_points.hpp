@@ -11,19 +11,19 @@ namespace vehd {
 /// The points of two membranes that are nearest to each other.
 struct NearestPoints {
   Vector3 on_first = Vector3::Zero(), on_second = Vector3::Zero();
-  /// Their distance; negative where the second point is behind the first membrane.
+  /// Their distance; negative if the second point is inside the first membrane.
   double gap = 0.0;
 };
 
 /// Nearest points by Newton's method for both at once, from the nearest pair of nodes.
 /// @param first, second  coefficients of x, [n_coefficients x 3] each
-/// Accuracy: rounding where the nearest pair of nodes is next to the nearest points; prolates and spheres at gaps from
+/// Accuracy: rounding if the nearest pair of nodes is next to the nearest points; prolates and spheres at gaps from
 /// 1e-6 to 10 to 1e-12 (tests/potentials/nearest_points_test.cpp)
 NearestPoints nearest_points(const Matrix& first, const Matrix& second);
 
-/// The two of several membranes between which the gap is smallest.
+/// The two of several membranes with the smallest gap.
 struct ClosestPair {
-  std::size_t first = 0, second = 0;  ///< their numbers
+  std::size_t first = 0, second = 0;  ///< their indices
   NearestPoints points;
 };
 
@@ -31,10 +31,10 @@ struct ClosestPair {
 /// @param membranes  at least two; coefficients of x of each, [n_coefficients x 3]
 ClosestPair closest_pair(const std::vector<Matrix>& membranes);
 
-/// How two membranes lie to each other.
+/// Position of two membranes relative to each other.
 enum class Arrangement { apart, they_meet, first_is_inside, second_is_inside };
 
-/// Arrangement from the nodes of either membrane; membranes that touch, up to rounding, meet.
+/// Arrangement from the nodes of both membranes; membranes that touch to rounding count as meeting.
 /// @param first, second  coefficients of x, [n_coefficients x 3] each
 /// @throws ConvergenceError if a nearest point is not found
 Arrangement arrangement_of(const Matrix& first, const Matrix& second);

@@ -19,15 +19,14 @@ struct Target {
   int longitude = 0;
   Vector3 position;
   Vector3 area_vector;  ///< J n, or n where kernels are plain
-  Index row = 0;        ///< where its kernel rows go
+  Index row = 0;        ///< row of its kernel values in the result
 };
 
-/// Values of the selected kernels between the targets of a chunk and one node about each of them.
+/// Values of the selected kernels between the targets of a chunk and one node in the frame of each.
 class NodeKernels {
  public:
   static constexpr int kMostKernels = 16;
-  /// x and its derivatives by θ and by φ over sin θ in the frame of each target, the latter only where
-  /// need_source_normal().
+  /// x, ∂x/∂θ and ∂x/(sin θ ∂φ) in the frame of each target; the derivatives only if need_source_normal().
   template <int kWidth>
   using Node = std::array<typename Lanes<kWidth>::Values, 9>;
   /// Kernels times weight.
@@ -49,7 +48,7 @@ class NodeKernels {
       }
     }
   }
-  /// @param first   of the targets that the lanes stand for
+  /// @param first   index of the target in the first lane
   /// @param weight  of the quadrature
   template <int kWidth>
   void evaluate(Index first, const Node<kWidth>& node, double weight, Values<kWidth>& values) const {

@@ -22,7 +22,7 @@ namespace vehd {
 
 namespace {
 
-/// Distance over spacing of the coarser smooth grid from which the smooth rule has a chance: exp(−2π 3.5) = 3e-10.
+/// Least distance over spacing of the coarser smooth grid at which the smooth rule is tried: exp(−2π 3.5) = 3e-10.
 constexpr double kFarSpacings = 3.5;
 
 /// Sums times 1/(4π), 1/(8π) for the Stokes single layer at μ = 1 and 3/(4π) for the Stokes double layer, Eqs. (6),
@@ -50,7 +50,7 @@ double enclosure_of(Side side) {
   return -0.5;
 }
 
-/// One size per layer: of a change, or of what a change is small against.
+/// One size per layer: of a change, or the scale of changes.
 using LayerSizes = std::array<double, LayersAt::count>;
 
 /// Absolute change of every layer from one evaluation to another.
@@ -60,8 +60,8 @@ LayerSizes change(const LayersAt& a, const LayersAt& b) {
   return sizes;
 }
 
-/// Largest densities on the membrane: times √(area/4π) for the single layers, ∇_γ f for ∇D. What a change of the layers
-/// is small against.
+/// Scales of changes of the layers: the largest densities on the membrane, times √(area/4π) for the single layers; the
+/// largest ∇_γ f for ∇D.
 LayerSizes density_sizes(const SmoothGrid& grid, const NodeColumns& columns) {
   const double radius = mean_radius(grid);
   const Vector area = grid.area_vectors.rowwise().norm();
@@ -95,13 +95,13 @@ bool is_small(const LayerSizes& change, const LayerSizes& sizes, double toleranc
   return std::ranges::equal(change, sizes, [=](double moved, double size) { return moved <= tolerance * size; });
 }
 
-/// What the one-sided limits of the gradients take from the densities at the foot point.
+/// Densities at the foot point that enter the one-sided limits of the gradients.
 struct FootDensities {
   double single = 0.0;                         ///< f, not J f
   Vector3 surface_gradient = Vector3::Zero();  ///< ∇_γ f of the double layer
 };
 
-/// Where a target stands and what was found for it.
+/// A target, its position relative to the membrane, and its results.
 struct FreeTarget {
   Vector3 point;
   NearestNodes nearest;
@@ -139,7 +139,7 @@ struct OffSurfaceLayers::Data {
         radius(mean_radius(coarse)),
         sizes(density_sizes(coarse, fields.columns)) {}
 
-  /// Smooth rule where it suffices. @return nodes visited
+  /// Applies the smooth rule if it suffices. @return nodes visited
   Index try_far(FreeTarget& target) const {
     target.nearest = nearest_nodes(coarse, target.point);
     target.distance = target.nearest.distance;
@@ -198,7 +198,7 @@ struct OffSurfaceLayers::Data {
     return v;
   }
 
-  /// Goes through the rules until two agree. @return nodes visited
+  /// Applies the rules in turn, each compared with the one before. @return nodes visited
   Index run_rules(FreeTarget& target, const std::vector<GradedRule>& rules, bool first) const {
     const TargetFrame frame(fields, target.foot.theta, target.foot.phi);
     const FootDensities at_foot = target.on_membrane ? foot_densities(target.foot) : FootDensities{};
@@ -210,7 +210,7 @@ struct OffSurfaceLayers::Data {
       if (!first) {
         target.last_change = change(next, target.values);
         const double expected = target.on_membrane ? -0.5 : enclosure_of(target.side);
-        // A solid angle that is far off betrays another part of the membrane that no node has seen.
+        // A wrong solid angle indicates another part of the membrane that the nodes do not resolve.
         constexpr double kEnclosureDefect = 1e-2;
         target.resolved = is_small(target.last_change, sizes, settings.tolerance) &&
                           std::abs(next.enclosure - expected) < kEnclosureDefect;
@@ -236,7 +236,7 @@ struct RequestedLayer {
   bool requested;
   LayerField OffSurfaceValues::*field;
   Index components;
-  const char* kernel;  ///< as instruments name it
+  const char* kernel;  ///< its name in the instruments
 };
 
 /// In the order of LayersAt.
@@ -296,7 +296,7 @@ OffSurfaceValues OffSurfaceLayers::evaluate(const Matrix& points, Side side, Ins
   }
   exceptions.rethrow_first();
 
-  // Targets that share the tables of their rules.
+  // Targets with equal rules share the tables.
   for (int stage = 1; stage < data.settings.max_rules; ++stage) {
     std::map<NearRule, std::vector<Index>> groups;
     for (Index i = 0; i < n; ++i) {

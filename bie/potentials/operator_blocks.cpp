@@ -14,7 +14,7 @@ namespace {
 
 using Sets = std::pair<std::vector<Index>, std::vector<Index>>;
 
-/// Blocks that grow as destinations come.
+/// Collects destinations into one block per pair of coefficient sets.
 class GrowingBlocks {
  public:
   void add(const std::vector<Index>& in, const std::vector<Index>& out, const OperatorBlock::Destination& destination) {

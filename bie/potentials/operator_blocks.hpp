@@ -9,7 +9,7 @@
 
 namespace vehd {
 
-/// Columns of some kernels between two sets of coefficients, and where they belong in the matrices of the operators.
+/// Columns of some kernels between two sets of coefficients, and their places in the matrices of the operators.
 struct OperatorBlock {
   /// Place of one kernel's columns.
   struct Destination {
@@ -24,32 +24,32 @@ struct OperatorBlock {
 
   [[nodiscard]] Index n_in() const { return static_cast<Index>(in.size()); }
   [[nodiscard]] Index n_columns() const { return static_cast<Index>(kernels.size()) * n_in(); }
-  /// In the rows, a multiple of kLanes.
+  /// Width in the rows, a multiple of kLanes.
   [[nodiscard]] Index width() const { return filled_up(n_columns()); }
 };
 
-/// Blocks of the operators on symmetric fields. Blocks between the same sets of coefficients are one, so that a
-/// kernel of two components is not carried along twice where these have the same coefficients.
+/// Blocks of the operators on symmetric fields. Blocks between the same sets of coefficients are merged, so that a
+/// kernel is carried along once for two components that have the same coefficients.
 struct SymmetricLayout {
   std::vector<OperatorBlock> blocks;        ///< side by side in the rows
   std::vector<Index> sizes;                 ///< rows and columns of each matrix
-  std::vector<Index> entries;               ///< SymmetrySubspace::vectors, those of the Stokes layers
-  std::vector<std::vector<Index>> classes;  ///< those of the Laplace layers that are not empty
-  /// Matrices of a layer follow one another: one of a Stokes layer, one per class of a Laplace layer.
+  std::vector<Index> entries;               ///< entries of the Stokes layers, SymmetrySubspace::vectors
+  std::vector<std::vector<Index>> classes;  ///< nonempty classes of the Laplace layers
+  /// Matrices of a layer are consecutive: one for a Stokes layer, one per class for a Laplace layer.
   std::vector<std::size_t> first_matrix;  ///< per kernel
 
   [[nodiscard]] Index width() const { return blocks.back().first_column + blocks.back().width(); }
 };
 
-/// @param azimuthal_order  highest |m| that takes part
+/// @param azimuthal_order  highest |m| that is included
 SymmetricLayout symmetric_layout(const KernelColumns& kernels, const SymmetrySubspace& subspace, int azimuthal_order);
 
-/// Are there harmonics of even, of odd degree in x, and in the entries of the rows that operators on symmetric fields
-/// need? Under the inversion x → −x only odd ones are left of x and of velocities.
-/// @param turned  rows are taken to those of other targets as a whole
+/// Which parities of degree occur in x, and in the row entries that operators on symmetric fields need. Under the
+/// inversion x → −x, x and velocities have odd degrees only.
+/// @param turned  whole rows are needed, for rotation to other targets
 DegreeParities degree_parities(const KernelColumns& kernels, const SymmetrySubspace& subspace, bool turned);
 
-/// The m of a coefficient_index.
+/// Order m of a coefficient_index.
 int order_of_index(Index index);
 
 }  // namespace vehd

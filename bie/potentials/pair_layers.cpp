@@ -29,16 +29,16 @@ struct FarGroup {
   std::vector<Index> targets;
 };
 
-/// Targets whose layers are rows over the coefficients.
+/// Targets evaluated by rows over the coefficients.
 struct RowTargets {
   PairColumns columns;
   std::vector<Index> targets;
-  Matrix rows;  ///< [n_coefficients x PairColumns::count], of one target behind the other
+  Matrix rows;  ///< [n_coefficients x PairColumns::count], one target after another
 
   [[nodiscard]] auto row(Index k, int column) const { return rows.col(k * columns.count + column); }
 };
 
-/// body(number of the first, targets) for targets that are looked at together.
+/// Calls body(index of the first, targets) for every batch of targets.
 template <class Body>
 void for_each_batch(const std::vector<Index>& targets, const Body& body) {
   constexpr Index kBatch = 16;
@@ -56,20 +56,20 @@ struct FarLayers {
   std::vector<FarGroup> groups;
 };
 
-/// @param rows  the layer where rows serve it as far as there is room
+/// @param rows  selects the layer if it is evaluated by rows as far as memory allows
 FarLayers far_layers(bool selected, const PairSelection& rows = {}) {
   return {selected, {PairColumns(rows), {}, {}}, {}};
 }
 
 int next_multiple(double order) { return kOrderStep * static_cast<int>(std::ceil(order / kOrderStep)); }
 
-/// Of far grids; beyond it rows of near targets take less time over some ten applications.
+/// Highest order of far grids; beyond it rows of near targets take less time over about ten applications.
 int highest_grid_order(int order) { return next_multiple(2 * order + 8); }
 
 double nodes_of_grid(int order) { return 2.0 * (order + 1.0) * (order + 1.0); }
 
-/// Gives targets of a grid to the next finer one where those are too few to bring a density to a grid of their own,
-/// which takes as long as the sums over its nodes for some ten targets.
+/// Moves the targets of a grid to the next finer one if they are too few for synthesis on a grid of their own to pay:
+/// it takes as long as the sums over its nodes for about ten targets.
 std::map<int, std::vector<Index>> merged(const std::map<int, std::vector<Index>>& targets_of_order) {
   constexpr double kTargetsOfSynthesis = 10.0;
   std::map<int, std::vector<Index>> result;
@@ -116,11 +116,11 @@ struct PairLayers::Data {
   PairSettings settings;
   int order;
   PairGeometry at;
-  Vector inverse_reach2;  ///< 1/c² at the nodes of the grid, c what a unit angle spans there
-  int area_degree;        ///< beyond which nothing is left of J n, which double layers multiply their densities by
+  Vector inverse_reach2;  ///< 1/c² at the nodes of the grid, c the length of a unit angle there
+  int area_degree;        ///< beyond which J n, the factor of densities of double layers, is negligible
   RowTargets near;
   FarLayers single, double_layer;
-  /// Applied most often for what rows cost.
+  /// Layers that are applied often enough for rows to pay.
   FarLayers single_normal, double_normal, stokes_double_layer;
   FarLayers no_slip_double;
   PairCounts counts;
@@ -146,19 +146,19 @@ struct PairLayers::Data {
     while (area_degree > 0 && left(area_degree) <= settings.tolerance * sizes.norm()) --area_degree;
   }
 
-  /// Order of the grid that resolves the kernel of a target, J n and a density of degree p: the kernel's coefficients
+  /// Order of the grid that resolves the product of kernel, J n and a density of degree p: the kernel's coefficients
   /// fall like (1 + distance/reach)^−n as on a sphere, and the rule is exact up to the degree 2q + 1 of their product.
   [[nodiscard]] int grid_order(double least_ratio2) const {
     const double degree_of_kernel = std::log(1.0 / settings.tolerance) / std::log1p(std::sqrt(least_ratio2));
     return next_multiple(std::clamp(0.5 * (order + area_degree + degree_of_kernel), static_cast<double>(order), 1e6));
   }
 
-  /// The same without J n, which the densities of single layers bring along.
+  /// The order without J n, which the densities of single layers already contain.
   [[nodiscard]] int single_grid_order(int grid_order) const {
     return std::max(next_multiple(order), grid_order - kOrderStep * (area_degree / (2 * kOrderStep)));
   }
 
-  /// @return targets of every order of a grid
+  /// @return far targets by order of the grid
   std::map<int, std::vector<Index>> sort_targets(FarRules& rules) {
     const int highest = highest_grid_order(order);
     std::map<int, std::vector<Index>> by_order, sorted;
@@ -172,7 +172,7 @@ struct PairLayers::Data {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       (wanted[i] > highest ? near.targets : by_order[wanted[i]]).push_back(static_cast<Index>(i));
     }
-    // A rule whose D[1] is not that of the outside is too coarse for its target.
+    // A rule whose D[1] differs from its value outside is too coarse for the target.
     for (int q = order; q <= highest; ++q) {
       const auto found = by_order.find(q);
       if (found == by_order.end()) continue;
@@ -218,7 +218,7 @@ struct PairLayers::Data {
     make_far(far, rules, no_slip_double, room);
   }
 
-  /// Rows of far targets as long as there is room, the finest grids first: theirs gain most.
+  /// Makes rows of far targets as long as memory allows, the finest grids first because they gain most.
   void make_far(const std::map<int, std::vector<Index>>& targets_of_order, FarRules& rules, FarLayers& layers,
                 double& room) {
     if (!layers.selected) return;
@@ -280,7 +280,7 @@ struct PairLayers::Data {
     return no_slip_double;
   }
 
-  /// The targets that have rows.
+  /// Evaluates the targets that have rows.
   static void put_rows(const RowTargets& all, PairLayer layer, const Matrix& density, Matrix& values) {
     const Index n = std::ssize(all.targets);
     const int first = all.columns[layer];

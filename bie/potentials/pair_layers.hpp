@@ -13,12 +13,12 @@ struct PairSettings {
   /// Error of the rules relative to the largest density, times the radius √(area/4π) of the source for the single
   /// layers.
   double tolerance = 1e-10;
-  /// Rules of near targets at most, each with a quarter more nodes in either direction.
+  /// Largest number of rules for near targets, each with a quarter more nodes in either direction.
   int max_rules = 9;
-  /// Memory that rows of far targets may take. Rows of a Stokes layer cost as much as some twenty sums over the nodes,
-  /// of a scalar one as some five, and are applied in a fraction of one, which pays where a layer is applied often: for
-  /// N·∇S, N·∇D and the Stokes double layer. Targets beyond the limit, and all those of the other layers, are summed at
-  /// every application.
+  /// Largest memory of rows of far targets. Rows of a Stokes layer cost as much as about twenty sums over the nodes,
+  /// those of a scalar layer about five, and are applied in a fraction of the time of one sum. This pays for layers
+  /// that are applied often: N·∇S, N·∇D and the Stokes double layer. Targets beyond the limit, and all targets of the
+  /// other layers, are summed at every application.
   double row_bytes = 1e9;
 };
 
@@ -30,15 +30,14 @@ struct PairCounts {
   Index expanded = 0;   ///< by multipole expansions
 };
 
-/// Makes the transforms that layers of a membrane of this degree need, for all membranes and steps to have them in
-/// common.
+/// Makes the transforms that layers of membranes of this degree need; all membranes and steps share them.
 void prepare_pair_transforms(int order, SharedTransforms& transforms);
 
 /// Layers of one membrane at points of another, all outside the first, as linear maps that are made once and applied
-/// many times. Far targets take the smooth rule of a grid as coarse as their distance allows, near ones the rule about
-/// the nearest point (near_rows), which becomes a row over the coefficients of the density, by the adjoint of the
-/// rule. Where no layer is selected the targets are sorted alone. Applications are sums in fixed order: the same bits
-/// for any count of threads.
+/// many times. Far targets use the smooth rule of a grid as coarse as their distance allows. Near targets use the rule
+/// about the nearest point (near_rows), whose adjoint gives a row over the coefficients of the density. If no layer is
+/// selected, the targets are only sorted. Applications are sums in fixed order, bit-identical for any number of
+/// threads.
 ///
 /// Accuracy: the tolerance, times the density, at every gap; layers of given densities on two shapes without symmetry
 /// at gaps from 1e-3 to 10 to 1e-9 (tests/potentials/pair_layers_test.cpp)
@@ -50,7 +49,7 @@ class PairLayers {
   /// @param points   targets, [n_targets x 3]
   /// @param normals  N at the targets, [n_targets x 3]
   /// @param transforms  missing ones are made
-  /// @param plane       of images, beyond which the targets are
+  /// @param plane       for images, whose targets are beyond it
   /// @throws ConvergenceError if the nearest point of a target is not found, a target is not outside the source, or the
   /// rules do not converge
   PairLayers(const Matrix& source, const Matrix& points, const Matrix& normals, const PairSelection& selection,

@@ -11,7 +11,7 @@ RotatedQuadrature make_rotated_quadrature(const SphereGrid& targets, double over
   RotatedQuadrature q;
   q.order = targets.order;
   const int order = q.order;
-  // The added nodes serve low orders, where the surface and not the density sets the resolution.
+  // The additional nodes are for low orders, where the surface rather than the density determines the resolution.
   q.n_theta = static_cast<int>(std::ceil(oversampling * order)) + 4;
   q.n_phi = 4 * ((2 * q.n_theta + 3) / 4);
   const GaussLegendre rule = gauss_legendre(q.n_theta);

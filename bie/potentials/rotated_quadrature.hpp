@@ -10,7 +10,7 @@ namespace vehd {
 
 /// Nodes of the singular quadrature in a frame whose pole is the target: Gauss-Legendre in θ itself on (0, π),
 /// equispaced in φ with half a step of offset. In ∫ K J f dω the factor sin θ of dω cancels the 1/|r| of the kernel,
-/// so that the integrand is smooth, Eq. (23). Tables depend on the order and the node counts alone.
+/// so that the integrand is smooth, Eq. (23). Tables depend only on the order and the node counts.
 struct RotatedQuadrature {
   int order = 0;
   int n_theta = 0;
@@ -27,8 +27,8 @@ struct RotatedQuadrature {
 
 /// @param oversampling  nodes in θ per degree: n_theta = ceil(oversampling * order) + a constant for low orders
 /// @param targets       the grid whose nodes are the targets; its order is that of the densities
-/// Accuracy: spectral in the oversampling; at the default 1.15 within 1e-5 of 4.0 on shape (33) at p = 16
-/// (tests/potentials/quadrature_test.cpp)
+/// Accuracy: spectral in the oversampling; results on shape (33) at p = 16 with the default 1.15 are within 1e-5 of
+/// those with 4.0 (tests/potentials/quadrature_test.cpp)
 /// Source: paper Eq. (23) with the pole at the target, but Gauss-Legendre nodes in θ in place of its weights
 RotatedQuadrature make_rotated_quadrature(const SphereGrid& targets, double oversampling);
 

@@ -13,7 +13,7 @@ namespace vehd {
 
 namespace {
 
-/// Square root of the larger eigenvalue of the metric: the most that a unit angle spans.
+/// Square root of the larger eigenvalue of the metric: the largest length of a unit angle.
 Vector largest_stretch(const Matrix& u, const Matrix& v) {
   const Eigen::ArrayXd e = u.rowwise().squaredNorm();
   const Eigen::ArrayXd g = v.rowwise().squaredNorm();
@@ -98,12 +98,12 @@ NearestNodes nearest_nodes(const SmoothGrid& grid, const Vector3& target) {
 }
 
 Vector least_weighted_squares(const SmoothGrid& grid, const Vector& weights, const Matrix& x) {
-  constexpr Index kTargets = 4;  // for which a node is read once
+  constexpr Index kTargets = 4;  // targets that share the reading of a node
   const double *px = grid.nodes.col(0).data(), *py = grid.nodes.col(1).data(), *pz = grid.nodes.col(2).data();
   const Index n = weights.size();
   Vector result(x.rows());
   for (Index first = 0; first < x.rows(); first += kTargets) {
-    // Where fewer are left the last one is asked again.
+    // If fewer are left, the last one is repeated.
     const auto target = [&](Index t) { return std::min(first + t, x.rows() - 1); };
     Few least[kTargets];
     std::fill_n(least, kTargets, std::numeric_limits<double>::max() - Few{});

@@ -9,13 +9,13 @@
 
 namespace vehd {
 
-/// Transforms to the grids of smooth rules, which membranes of one degree have in common: their tables take longer to
-/// make than to use. Not thread safe.
+/// Transforms to the grids of smooth rules, shared by membranes of one degree: their tables take longer to make than to
+/// use. Not thread safe.
 class SharedTransforms {
  public:
-  /// The transform, made if it is missing.
+  /// The transform, made on first use.
   /// @param order       degree of the coefficients
-  /// @param grid_order  of the grid, not below it
+  /// @param grid_order  of the grid, not below `order`
   const SphereTransform& of(int order, int grid_order) {
     auto found = made_.find({order, grid_order});
     if (found == made_.end()) {
@@ -43,7 +43,7 @@ struct SmoothGrid {
 /// The fields on the grid of order grid_order, with their quadrature.
 /// Source: paper Eq. (22)
 SmoothGrid make_smooth_grid(const LayerFields& fields, int grid_order);
-/// The fields on the grid of a transform, whose degree is theirs.
+/// The fields on the grid of a transform of their degree.
 SmoothGrid make_smooth_grid(const LayerFields& fields, const SphereTransform& transform);
 
 /// Sums of the smooth rule: error about exp(−2π distance/spacing).
@@ -54,9 +54,9 @@ LayersAt smooth_sums(const SmoothGrid& grid, const NodeColumns& columns, const V
 /// √(area/4π).
 double mean_radius(const SmoothGrid& grid);
 
-/// Nodes from which the nearest point of the membrane is sought: the nearest one and, if hardly farther, the nearest
-/// one whose normal points the other way. Where two parts of the membrane are closer than their nodes, the nearest node
-/// may belong to the farther part.
+/// Nodes from which the nearest point of the membrane is searched: the nearest one and, if less than a spacing farther,
+/// the nearest one whose normal points the other way. Where two parts of the membrane are closer than their nodes, the
+/// nearest node may belong to the farther part.
 /// Distances are from node to target.
 struct NearestNodes {
   Index first = 0, opposite = 0;
@@ -64,7 +64,7 @@ struct NearestNodes {
   double distance = 0.0;  ///< of the first
 };
 
-/// The nodes nearest to a target, among all of them.
+/// The nearest nodes of a target.
 NearestNodes nearest_nodes(const SmoothGrid& grid, const Vector3& target);
 
 /// Least weighted |x − y|² between each target x and the nodes y of a grid.

@@ -19,7 +19,7 @@ Matrix regular_harmonics(const Matrix& points, int degree) {
   Matrix result = Matrix::Zero(points.rows(), n_solid(degree));
   const Eigen::ArrayXd x = points.col(0), y = points.col(1), z = points.col(2);
   const Eigen::ArrayXd r2 = x.square() + y.square() + z.square();
-  // Orders one by one: upwards from R_mm.
+  // One order at a time: degrees upwards from R_mm.
   Eigen::ArrayXd re = Eigen::ArrayXd::Ones(points.rows()), im = Eigen::ArrayXd::Zero(points.rows());
   for (int m = 0; m <= degree; ++m) {
     if (m > 0) {
@@ -87,7 +87,7 @@ Matrix moments(const Matrix& regular_sums) {
 namespace {
 
 constexpr int kDoubleDegree = 9;
-/// Nodes that stand side by side.
+/// Nodes processed side by side.
 constexpr Index kNodesTogether = 4;
 /// Columns of R and of q whose sums stay in registers.
 constexpr Index kHarmonics = 2, kDensities = 4;
@@ -105,7 +105,7 @@ FourDoubles four(const float* at) {
 template <class Entry>
 using EntryColumns = Eigen::Matrix<Entry, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Products of a few columns from there on.
+/// Products of kR columns of R and kQ columns of q from given ones on.
 template <Index kR, Index kQ, class Entry>
 void moment_block(const EntryColumns<Entry>& r, Index first_r, const Matrix& q, Index first_q, Matrix& result) {
   const Index n = r.rows();

@@ -5,7 +5,7 @@
 #include "bie/support/types.hpp"
 
 /// Solid harmonics R_lm = r^l P_l^m(cos θ) e^{imφ}/(l + m)! and I_lm = (l − m)! P_l^m(cos θ) e^{imφ}/r^{l+1} with the
-/// sign (−1)^m in P_l^m, for which 1/|x − y| = Σ conj(R_lm(y)) I_lm(x). Those of m ≥ 0 say all: l² is the index of the
+/// sign (−1)^m in P_l^m, for which 1/|x − y| = Σ conj(R_lm(y)) I_lm(x). Orders m ≥ 0 suffice: l² is the index of the
 /// real part of order 0, l² + 2m − 1 that of order m, l² + 2m that of its imaginary part.
 namespace vehd {
 
@@ -26,9 +26,9 @@ Eigen::SparseMatrix<double> regular_derivative(int axis, int degree);
 /// @return              [n_solid x columns]
 Matrix moments(const Matrix& regular_sums);
 
-/// Σ_i R_lm(y_i) q_i over the nodes y_i of a membrane, for several q at a time. Every entry of R is read once a sum,
-/// and reading them is all that a sum takes; so from degree 10 on they have single precision. In an expansion to degree
-/// L whose last term is of the size of a tolerance τ the tenth is of the size τ^{10/L}, and at L = 22 rounding of 6e-8
+/// Σ_i R_lm(y_i) q_i over the nodes y_i of a membrane, for several q at a time. A sum reads every entry of R once and
+/// its time is that of reading, so entries from degree 10 on have single precision. In an expansion to degree L whose
+/// last term has the size of a tolerance τ, the tenth has the size τ^{10/L}; at L = 22 its rounding error 6e-8
 /// τ^{10/22} is below any τ above 1e-13.
 ///
 /// Accuracy: rounding up to degree 9, 6e-8 of the largest product beyond (tests/potentials/far_expansions_test.cpp)
@@ -43,10 +43,10 @@ class MomentSums {
 
  private:
   Index n_nodes_;
-  // Filled up with zeros to whole instructions.
+  // Padded with zeros to whole registers.
   Matrix low_;
   Eigen::MatrixXf high_;
-  Vector scale_;  ///< of the columns of high_, which have entries up to 1
+  Vector scale_;  ///< of the columns of high_, whose entries are at most 1
 };
 
 }  // namespace vehd

@@ -14,7 +14,7 @@ namespace vehd {
 
 namespace {
 
-/// Sums over the longitudes of the targets for the orders that the block finds.
+/// Sums over the longitudes of the targets for the orders of a block's output.
 struct ModeSums {
   std::vector<int> orders;
   RowMatrix table;            ///< [orders x rows]
@@ -40,7 +40,7 @@ ModeSums mode_sums(const OperatorBlock& block, const SphereGrid& grid, const std
   return sums;
 }
 
-/// From the amplitudes of one order at all latitudes to the degrees that the block finds.
+/// Analyses the amplitudes of one order at all latitudes into the degrees of the block's output.
 void analyse_latitudes(const OperatorBlock& block, int order, const Matrix& amplitudes, const Matrix& analysis,
                        std::vector<Matrix>& matrices) {
   const int m = std::abs(order);
@@ -61,12 +61,12 @@ void analyse_latitudes(const OperatorBlock& block, int order, const Matrix& ampl
   }
 }
 
-/// See SymmetricBlocks.
+/// Symmetrises a matrix as SymmetricBlocks does.
 void symmetrize(const std::vector<Index>& entries, Index n_all, Matrix& transposed) {
   std::vector<int> degrees;
   for (const Index entry : entries) degrees.push_back(degree_of(entry % n_all));
   const Index n = std::ssize(degrees);
-  // So many columns and rows that a square of them and its mirror image stay in cache.
+  // Size of a square tile that stays in cache with its mirror image.
   constexpr Index kTogether = 32;
   for (Index first_j = 0; first_j < n; first_j += kTogether) {
     for (Index first_i = 0; first_i <= first_j; first_i += kTogether) {
@@ -101,7 +101,7 @@ LayerOperators assemble_symmetric_operators(const RotatedQuadrature& quadrature,
   std::vector<Matrix> matrices;
   for (const Index size : operators.sizes) matrices.emplace_back(size, size);
 
-  // Column of each entry of a whole row among those of the blocks.
+  // Column of each entry of a whole row in the blocks, −1 for none.
   const Index n_columns = kernels.count * active.count();
   std::vector<Index> order_major(n_all, -1);
   for (Index i = 0; i < active.count(); ++i) order_major[coefficient_index(active.n[i], active.m[i])] = i;
@@ -114,7 +114,7 @@ LayerOperators assemble_symmetric_operators(const RotatedQuadrature& quadrature,
   }
   const Index width = operators.width();
 
-  // Under turns components mix, and their images have to be made; under reflections all images give the same.
+  // Rotations mix components, so their images must be computed; under reflections all images contribute equally.
   const bool turned = fold > 1;
   std::vector<int> longitudes = sweep.images().originals();
   std::vector<int> multiplicities = sweep.images().multiplicities();
@@ -153,7 +153,7 @@ LayerOperators assemble_symmetric_operators(const RotatedQuadrature& quadrature,
     }
   });
 
-  // A latitude and its image give the same; the equator is its own image.
+  // A latitude and its image contribute equally; the equator is its own image.
   Vector shares = Vector::Ones(sweep.n_latitudes());
   if (sweep.images().flip()) shares.head(grid.n_theta / 2).array() = 2.0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {

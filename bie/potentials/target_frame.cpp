@@ -9,7 +9,7 @@ namespace vehd {
 
 namespace {
 
-/// The block of one degree, or its transpose, times coefficients. @param before  [m x fields filled up to lanes]
+/// Multiplies coefficients by the block of one degree or its transpose. @param before  [m x fields filled up to lanes]
 void rotate(const Matrix& block, bool back, const RowMatrix& before, RowMatrix& after) {
   after.resize(before.rows(), before.cols());
   const Index n = block.rows();
@@ -63,7 +63,7 @@ RowMatrix TargetFrame::amplitudes(const GradedRule& rule) const {
   const NodeColumns& columns = fields_.columns;
   const Index n_theta = rule.theta.size();
   RowMatrix result = RowMatrix::Zero(rule.azimuths.n_modes(), filled_up(columns.count * n_theta));
-  RowMatrix product(2 * n_fields_, 3 * n_theta);  // kinds of one field, one behind the other
+  RowMatrix product(2 * n_fields_, 3 * n_theta);  // kinds of one field, one after another
   const auto put = [&](int m, int column, const auto& cosine, const auto& sine) {
     result.row(m).segment(column * n_theta, n_theta) = cosine;
     if (m > 0) result.row(order_ + m).segment(column * n_theta, n_theta) = sine;

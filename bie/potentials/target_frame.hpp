@@ -20,19 +20,18 @@ class TargetFrame {
   /// Values of the fields at the pole.
   [[nodiscard]] const Eigen::RowVectorXd& pole() const { return pole_; }
 
-  /// Fields at the nodes of a rule, [n_phi x filled_up(columns * n_theta)]: in the row of an azimuth column c of
-  /// NodeColumns at node i is entry c * n_theta + i.
-  /// Positions are relative to that of the pole, and so are the densities of double layers; those of single layers are
-  /// J f. Rows are filled up with zeros.
+  /// Fields at the nodes of a rule, [n_phi x filled_up(columns * n_theta)]: in the row of an azimuth, column c of
+  /// NodeColumns at node i is entry c * n_theta + i. Positions and densities of double layers are relative to those at
+  /// the pole; densities of single layers are J f. Rows are padded with zeros.
   [[nodiscard]] RowMatrix nodes(const GradedRule& rule) const;
-  /// Coefficients of the pole's frame taken back to those of the sphere, by the adjoint of the rotation: a row over the
-  /// former that is applied to rotated densities becomes one that is applied to the densities.
+  /// Rows over coefficients in the frame of the pole converted to rows over the original coefficients, by the adjoint
+  /// of the rotation.
   /// @param rotated  per m [2 columns x (order + 1 − m), filled up], cosines and sines
   /// @return         [columns x n_coefficients]
   [[nodiscard]] RowMatrix rotated_back(const std::vector<RowMatrix>& rotated) const;
 
   /// Sums over the nodes of a rule for a target at `offset` from the position of the pole. The double layers are those
-  /// of f − f(pole): the rest of D is the caller's.
+  /// of f − f(pole); the caller adds the rest of D.
   [[nodiscard]] LayersAt integrate(const GradedRule& rule, const Vector3& offset) const;
 
  private:

@@ -20,8 +20,8 @@ struct ActiveCoefficients {
   [[nodiscard]] Index count() const { return static_cast<Index>(n.size()); }
 };
 
-/// How the kernel row of a target follows from that of the target before a rotation R by the angle α about z, where the
-/// surface is its own image under R: cosine and sine of one m mix by the angle mα, Stokes blocks become R K Rᵀ.
+/// Maps the kernel row of a target to that of the target rotated by R, the rotation by the angle α about z, on a
+/// surface that is invariant under R: cosine and sine of one m mix by the angle mα, Stokes blocks become R K Rᵀ.
 /// Accuracy: rounding; operators agree with those without images to 1e-12 (tests/potentials/target_images_test.cpp)
 class RowRotation {
  public:
@@ -46,22 +46,22 @@ struct SurfaceMaps {
   int fold = 1;
 };
 
-/// How the rows of one target follow from those of another when the surface is its own image. Under a reflection a row
-/// over coefficients changes sign with the parity of each harmonic and, in the Stokes blocks, with the components i and
-/// j; for rotations see RowRotation.
+/// Completes the rows of targets from those of their images on a symmetric surface. Under a reflection a row over
+/// coefficients changes sign with the parity of each harmonic and, in the Stokes blocks, with the components i and j;
+/// for rotations see RowRotation.
 /// Accuracy: rounding; operators agree with those without images to 1e-12 (tests/potentials/target_images_test.cpp)
 class TargetImages {
  public:
   /// @param n_phi  even, and a multiple of the fold
   TargetImages(const SurfaceMaps& maps, const KernelColumns& kernels, const ActiveCoefficients& active, int n_phi);
 
-  /// Azimuths whose rows have to be computed.
+  /// Azimuths whose rows must be computed.
   [[nodiscard]] const std::vector<int>& originals() const { return originals_; }
-  /// How many azimuths each of them stands for.
+  /// Number of azimuths that each original represents.
   [[nodiscard]] std::vector<int> multiplicities() const;
-  /// Do these alone lie at azimuth 0, in a plane y = 0 that the surface is symmetric about?
+  /// Whether the only original lies at azimuth 0, in a plane y = 0 of symmetry of the surface.
   [[nodiscard]] bool in_mirror() const { return in_mirror_; }
-  /// The reflection that takes a latitude to the other hemisphere, if there is one.
+  /// A reflection that maps a latitude to the other hemisphere, if there is one.
   [[nodiscard]] const std::optional<Reflection>& flip() const { return flip_; }
   /// Signs of a row under that reflection.
   [[nodiscard]] const Eigen::RowVectorXd& flip_signs() const { return flip_signs_; }

@@ -11,7 +11,7 @@ namespace vehd {
 
 namespace {
 
-/// One rotation serves all of them, in matrix products.
+/// Whether one rotation applies to all targets, in matrix products.
 bool share_latitude(std::span<const Target> targets) { return targets.front().latitude == targets.back().latitude; }
 
 Index size_of(const std::vector<int>& columns, Index chunk) { return static_cast<Index>(columns.size()) * chunk; }
@@ -32,7 +32,7 @@ void transpose(std::array<LanesOfRows, kLanes>& v) {
        __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7), __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7)};
 }
 
-/// Where a column stands in a list, −1 if it does not.
+/// Position of a column in a list, −1 if absent.
 Index place_of(const std::vector<int>& columns, int column) {
   const auto found = std::find(columns.begin(), columns.end(), column);
   return found == columns.end() ? -1 : found - columns.begin();
@@ -251,7 +251,7 @@ void TargetRows::rotate_back(std::span<const Target> targets) {
   }
 }
 
-/// Undoes the phase shift, and turns what has targets side by side into rows.
+/// Undoes the phase shift, and transposes targets side by side to rows.
 void TargetRows::store_rows(std::span<const Target> targets, RowMatrix& rows) {
   std::vector<double*> row_of;
   for (const Target& target : targets) row_of.push_back(rows.row(target.row).data());

@@ -14,9 +14,9 @@
 
 namespace vehd {
 
-/// Harmonic coefficients of many columns in the rectangular layout [m][n][column], cosines and sines apart: rows of
+/// Harmonic coefficients of many columns in the rectangular layout [m][n][column], cosines and sines separate: rows of
 /// one m are contiguous (Legendre sums), rows of one n have a constant stride (Wigner blocks). Sines of order 0 are
-/// zero; all else is for who fills it, since clearing as much took longer than many a sum.
+/// zero; all other entries are uninitialised, since clearing them took longer than many of the sums.
 class CoefficientBlock {
  public:
   /// @param highest  m
@@ -29,7 +29,7 @@ class CoefficientBlock {
   }
 
   [[nodiscard]] Index columns(bool sine) const { return columns_[sine]; }
-  /// From an order of one degree to the next.
+  /// Distance from one order to the next at fixed degree.
   [[nodiscard]] Index order_stride(bool sine) const { return width_ * columns_[sine]; }
   double* row(bool sine, int n, int m) { return values_[sine].get() + (m * width_ + n) * columns_[sine]; }
   const double* row(bool sine, int n, int m) const { return values_[sine].get() + (m * width_ + n) * columns_[sine]; }
@@ -40,8 +40,8 @@ class CoefficientBlock {
   std::array<std::unique_ptr<double[]>, 2> values_;
 };
 
-/// Fourier amplitudes along every latitude of the rotated grid, cosines and sines apart: of each latitude the even
-/// orders, then the odd ones. Order 0 begins with zeros; all else is for who fills it.
+/// Fourier amplitudes along every latitude of the rotated grid, cosines and sines separate: for each latitude the even
+/// orders, then the odd ones. Order 0 is set to zero; all other entries are uninitialised.
 class AzimuthalAmplitudes {
  public:
   AzimuthalAmplitudes(int n_theta, int order, Index cosine_columns, Index sine_columns)
@@ -66,7 +66,7 @@ class AzimuthalAmplitudes {
   std::array<std::unique_ptr<double[]>, 2> values_;
 };
 
-/// Columns in the Fourier sums about the target: without a mirror each one has cosines and sines.
+/// Columns in the Fourier sums about the target: without a mirror plane each has cosines and sines.
 struct FourierColumns {
   std::vector<int> cosine, sine;
 
@@ -80,20 +80,20 @@ FourierColumns shape_columns(bool mirrored);
 /// Columns of the kernels; `mirrored` as above.
 FourierColumns row_columns(const KernelColumns& kernels, bool mirrored);
 
-/// Are there harmonics of even, of odd degree?
+/// Whether harmonics of even and of odd degree occur.
 struct DegreeParities {
   std::array<bool, 2> shape{true, true};  ///< in x
-  std::array<bool, 2> rows{true, true};   ///< in the entries of the rows that are wanted
+  std::array<bool, 2> rows{true, true};   ///< in the required entries of the rows
 };
 
-/// Which entries of the rows are wanted, and where they go.
+/// Required entries of the rows and their columns.
 struct RowPlaces {
-  /// [kernels * active coefficients], order-major: column of each entry, −1 for none; empty: all where they are.
+  /// [kernels * active coefficients], order-major: column of each entry, −1 if not required; empty: all, in this order.
   std::vector<Index> columns;
   DegreeParities degrees;
 };
 
-/// Data common to all targets of an assembly; they and their references must outlive the rows.
+/// Data common to all targets of an assembly; all references must outlive the rows.
 struct TargetContext {
   const RotatedQuadrature& quadrature;
   const KernelColumns& kernels;
@@ -103,29 +103,29 @@ struct TargetContext {
   bool mirrored;  ///< all targets lie in a plane of symmetry y = 0
 };
 
-/// Work of one thread: the kernel rows of a chunk of targets, which share the matrix products. Targets of one latitude
-/// stand together. Where all targets lie in a plane of symmetry y = 0, what they see at azimuths φ and −φ about them is
-/// equal up to signs, so that one half of the nodes is enough. Latitudes θ and π − θ of the rotated grid share their
-/// Legendre sums, four azimuths their Fourier sums, and the nodes of one latitude go from coefficients of the shape to
-/// those of the kernels before the next one is begun, so that they stay in cache. Where x and all wanted entries have
-/// odd degrees alone, x(−s) = −x(s), opposite nodes share all sums.
+/// Computes on one thread the kernel rows of a chunk of targets, which share the matrix products. Targets of one
+/// latitude are adjacent. If all targets lie in a plane of symmetry y = 0, values at azimuths φ and −φ about them are
+/// equal up to signs, so that half of the nodes suffice. Latitudes θ and π − θ of the rotated grid share their Legendre
+/// sums, four azimuths their Fourier sums. Each latitude is processed from coefficients of the shape to those of the
+/// kernels before the next one, so that its nodes stay in cache. If x and all required entries have odd degrees only,
+/// x(−s) = −x(s), opposite nodes share all sums.
 ///
-/// Source: Gimbutas and Veerapaneni 2013 for phase shift, rotation and synthesis; here the same chain runs backwards as
-/// well, so that a kernel row becomes a row over coefficients
+/// Source: Gimbutas and Veerapaneni 2013 for phase shift, rotation and synthesis; here the adjoint of the same chain
+/// also converts a kernel row to a row over coefficients
 class TargetRows {
  public:
   /// @param places  must outlive the rows
   /// @param chunk   targets at a time, a multiple of kLanes
   TargetRows(const TargetContext& context, const RowPlaces& places, int chunk);
 
-  /// Writes the kernel rows of targets at the columns that the places give.
+  /// Writes the kernel rows of targets to the columns that the places give.
   /// @param targets  as many as the chunk
   /// @param rows     row Target::row of each target is written
   void run(std::span<const Target> targets, RowMatrix& rows);
 
  private:
   static constexpr int kShapeKinds = 3;  ///< x, ∂x/∂θ, ∂x/(sin θ ∂φ) in the rotated frame
-  /// Cosines of even, of odd, sines of even, of odd orders: common to the azimuths φ, π − φ, π + φ and −φ.
+  /// Cosines of even and odd orders, sines of even and odd orders: common to the azimuths ±φ and π ± φ.
   static constexpr int kParts = 4;
 
   void load_phases(std::span<const Target> targets);
@@ -136,7 +136,7 @@ class TargetRows {
   void evaluate_latitude(int i);
   void fourier_synthesis(int kind, int i);
   static constexpr std::size_t kMostImages = 4;
-  /// Of all images of a node.
+  /// Data of all images of a node.
   template <int kWidth>
   using Nodes = std::array<NodeKernels::Node<kWidth>, kMostImages>;
   template <int kWidth>
@@ -151,18 +151,18 @@ class TargetRows {
   void legendre_adjoint(bool sine);
   void subtract_pole();
   void rotate_back(std::span<const Target> targets);
-  /// Orders of one degree, up to the highest.
+  /// A block and the highest order in use at a degree.
   struct Orders {
     CoefficientBlock& block;
     int highest;
   };
-  /// Orders of degree n of every target by its own rotation, or by its transpose.
+  /// Rotates degree n of every target by its own rotation, or by the transpose.
   void rotate_one_by_one(std::span<const Target> targets, int n, const Orders& from, const Orders& to, bool back);
-  /// Where an entry of the rows comes from: its cosine and its sine in rows_, −1 for none, and the pair of phases.
+  /// Source of an entry of the rows: its cosine and its sine in rows_, −1 for none, and the pair of phases.
   struct StoredEntry {
     std::int32_t cosine, sine, phases;
   };
-  /// Entries that stand together in the rows, as many as a register of kLanes holds or fewer.
+  /// Adjacent entries of the rows, at most kLanes.
   struct StoredEntries {
     Index column;
     int count;
@@ -181,7 +181,7 @@ class TargetRows {
   bool mirrored_;
   bool inverted_;  ///< degrees are odd: the southern latitudes of the rotated grid follow from the northern ones
   int n_latitudes_;
-  std::size_t n_images_;  ///< azimuths that share the Fourier sums of one
+  std::size_t n_images_;  ///< azimuths that share Fourier sums
   int shape_kinds_;
   Index n_quarter_;
   FourierColumns components_, kernel_columns_;

@@ -1,4 +1,4 @@
-// What TargetRows does on the rotated grid: Legendre and Fourier sums, kernels, and the sums of these.
+// The part of TargetRows on the rotated grid: Legendre and Fourier sums, kernels, and the adjoint sums.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 struct FourierTable {
   const RowMatrix& table;
   bool sine;
-  int first_order;  ///< sin 0φ takes no part
+  int first_order;  ///< sin 0φ vanishes
 
   [[nodiscard]] Index skipped() const { return first_order / 2; }
   [[nodiscard]] Index n_orders() const { return table.cols() - skipped(); }
@@ -84,7 +84,7 @@ void TargetRows::fourier_synthesis(int kind, int i) {
   }
 }
 
-/// Shape data at azimuths φ, π − φ, π + φ, −φ; in the mirror at the first two.
+/// Shape data at azimuths φ, π − φ, π + φ, −φ; for targets in a mirror plane at the first two.
 template <int kWidth>
 void TargetRows::load_nodes(Index quarter_node, Index first, Nodes<kWidth>& nodes) const {
   for (int kind = 0; kind < shape_kinds_; ++kind) {
@@ -121,7 +121,7 @@ void TargetRows::load_nodes(Index quarter_node, Index first, Nodes<kWidth>& node
   }
 }
 
-/// The other way for kernel values.
+/// Adjoint of load_nodes for kernel values.
 template <int kWidth>
 void TargetRows::add_values(Index quarter_node, Index first, const Values<kWidth>& values) {
   const auto put = [&](std::size_t which, std::size_t position, const auto& lanes) {
@@ -150,7 +150,7 @@ void TargetRows::add_values(Index quarter_node, Index first, const Values<kWidth
   }
 }
 
-/// All images of a node, for some targets of the chunk.
+/// Evaluates all images of a node for kWidth targets of the chunk.
 template <int kWidth>
 void TargetRows::evaluate_node(Index quarter_node, Index first, double weight) {
   Nodes<kWidth> nodes;
@@ -170,11 +170,11 @@ void TargetRows::evaluate_node(Index quarter_node, Index first, double weight) {
 
 void TargetRows::evaluate_latitude(int i) {
   for (int kind = 0; kind < shape_kinds_; ++kind) fourier_synthesis(kind, i);
-  // Nodes on the equator would meet their opposites twice.
+  // Pairs of opposite nodes on the equator would be counted twice.
   const bool twice = inverted_ && 2 * i + 1 == q_.n_theta;
   const double weight = twice ? 0.5 * q_.weight[i] : q_.weight[i];
   for (Index quarter_node = 0; quarter_node < n_quarter_; ++quarter_node) {
-    // Registers of this processor, and shorter ones for what is left over.
+    // Registers of this processor, and shorter ones for the remainder.
     constexpr auto kWide = static_cast<int>(kTogether);
     Index first = 0;
     for (; first + kWide <= chunk_; first += kWide) evaluate_node<kWide>(quarter_node, first, weight);
@@ -216,7 +216,7 @@ void TargetRows::legendre_adjoint(bool sine) {
       double* odd = half_[1].data() + i * columns;
       const int mirror_image = q_.n_theta - 1 - static_cast<int>(i);
       const double* north = row_amplitudes_.of_order(sine, static_cast<int>(i), m);
-      // The equator is its own image; of the odd harmonics it knows nothing.
+      // The equator is its own image, and odd harmonics vanish there.
       const bool has_south = mirror_image > i && !inverted_;
       const double* south = has_south ? row_amplitudes_.of_order(sine, mirror_image, m) : north;
       const double share = has_south ? 1.0 : 0.0;

@@ -15,7 +15,7 @@ namespace {
 /// Targets that share the matrix products: enough columns for efficiency, few enough to stay in cache.
 constexpr int kChunk = 2 * kLanes;
 
-/// Latitudes that share a chunk where each has few targets.
+/// Number of batches of latitudes; latitudes with few targets share a chunk.
 int batch_count(int n_latitudes, int n_targets) {
   const int shared = std::max(1, kChunk / n_targets);
   return (n_latitudes + shared - 1) / shared;
@@ -60,7 +60,7 @@ void TargetSweep::run(const RowLayout& layout, Latitudes latitudes,
 #pragma omp parallel if (is_parallel())
   {
     RowMatrix rows = RowMatrix::Zero(n_rows * ((n_latitudes + n_batches - 1) / n_batches), layout.width);
-    // Making one clears its tables, and where targets are few one of them is enough.
+    // Made on first use: construction clears tables, and for few targets one of them is enough.
     std::optional<TargetRows> worker, last_worker;
     const auto fill_rows = [&](std::optional<TargetRows>& of_chunk, std::span<const Target> chunk) {
       if (!of_chunk) {

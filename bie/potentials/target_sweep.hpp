@@ -13,28 +13,28 @@ namespace vehd {
 /// The kernel rows of all targets that an assembly needs, latitude by latitude.
 class TargetSweep {
  public:
-  /// Arguments as those of assemble_layer_operators, which the sweep must not outlive.
+  /// Arguments as in assemble_layer_operators; they must outlive the sweep.
   TargetSweep(const RotatedQuadrature& quadrature, const SphereTransform& transform, const Matrix& position,
               const LayerSelection& selection, const std::vector<Reflection>& reflections, int fold);
 
   [[nodiscard]] const KernelColumns& kernels() const { return kernels_; }
   [[nodiscard]] const ActiveCoefficients& active() const { return active_; }
   [[nodiscard]] const TargetImages& images() const { return images_; }
-  /// The northern ones alone where a reflection makes the southern ones of them.
+  /// Number of latitudes that are swept: the northern ones only if a reflection maps them to the southern ones.
   [[nodiscard]] int n_latitudes() const { return n_latitudes_; }
-  /// See evaluations_per_assembly.
+  /// Kernel evaluations of each operator, as evaluations_per_assembly.
   [[nodiscard]] std::uint64_t n_evaluations() const { return n_evaluations_; }
-  /// Is there enough work to wake a second thread?
+  /// Whether there is enough work for a second thread.
   [[nodiscard]] bool is_parallel() const;
 
   /// Layout of the rows.
   struct RowLayout {
     Index width = 0;  ///< a multiple of kLanes
     RowPlaces places;
-    /// A row for each longitude, where those of the originals are filled in; otherwise for the originals alone.
+    /// A row for each longitude, with the images filled in; otherwise rows of the originals only.
     bool all_longitudes = false;
   };
-  /// Latitudes from the first to before the end.
+  /// A range of latitudes, `end` excluded.
   struct Latitudes {
     int first, end;
     [[nodiscard]] int count() const { return end - first; }

@@ -8,12 +8,12 @@ namespace vehd {
 /// That density has the total force 3 V e = 8π e and makes the Stokes single layer constant on the surface, so that it
 /// is the density of the rigid particle; its speed follows from the resistance 6πμ·2·factor (Oberbeck; Kim & Karrila,
 /// Microhydrodynamics, Table 3.4).
-/// Accuracy: closed form to rounding; the assembled layer meets it to 1e-11 at p = 16 and to 5e-12 at p = 32
+/// Accuracy: closed form to rounding; the assembled layer agrees to 1e-11 at p = 16 and to 5e-12 at p = 32
 /// (tests/potentials/translating_prolate_test.cpp)
 struct ProlateSpeeds {
   double along, across;
 };
-/// See ProlateSpeeds.
+/// The speeds in closed form.
 /// Source: Kim and Karrila 1991, Table 3.4
 inline ProlateSpeeds translating_prolate_speeds() {
   const double e = std::sqrt(0.75);

@@ -24,14 +24,14 @@ struct View {
   Eigen::Vector2d rise;
 };
 
-/// What second derivatives can amount to near a node, as norms of the Hessian.
+/// Bounds on second derivatives near a node, as norms of the Hessian.
 struct Bends {
   double offset = 0.0;
   double height = 0.0;
 };
 
-/// The rectangle around `centre`, of half sides `half`, in the tangent plane of a node, laid on the sphere by great
-/// circles from the node, which lengthens nothing.
+/// Rectangle around `centre` with half sides `half` in the tangent plane of a node, mapped to the sphere along great
+/// circles from the node, which does not increase distances.
 struct Patch {
   TangentFrame node;
   Eigen::Vector2d half;
@@ -42,13 +42,13 @@ struct Patch {
   [[nodiscard]] SpherePoint point() const { return point_of(node.moved(centre)); }
 };
 
-/// A crossing and how far around it there is no other.
+/// A crossing and the radius around it without another one.
 struct Crossing {
   Vector3 place;
   double alone = 0.0;
 };
 
-/// What the degree at hand lets second derivatives change between a node and its neighbours.
+/// Factor by which second derivatives may vary between a node and its neighbours at the given degree.
 constexpr double kVariation = 1.5;
 
 double remainder(double bend, double radius) { return 0.5 * bend * radius * radius; }
@@ -57,7 +57,7 @@ double highest_possible(const View& view, const Patch& patch) {
   return view.height + view.rise.norm() * patch.radius() + remainder(patch.bends.height, patch.radius());
 }
 
-/// No point of the patch lies on the line: along some direction the offset is larger than what it can lose.
+/// Whether no point of the patch lies on the line: along some direction the offset exceeds its largest change.
 bool misses(const View& view, const Patch& patch) {
   const auto apart = [&](const Eigen::Vector2d& along) {
     const double norm = along.norm();
@@ -67,12 +67,12 @@ bool misses(const View& view, const Patch& patch) {
         (view.slopes.transpose() * unit).norm() * patch.radius() + remainder(patch.bends.offset, patch.radius());
     return !(std::abs(unit.dot(view.offset)) <= reached);
   };
-  // The second one is normal to the ellipse onto which a disc is mapped.
+  // The second direction is normal to the ellipse onto which a disc is mapped.
   const Eigen::Matrix2d gram = view.slopes * view.slopes.transpose();
   return apart(view.offset) || (gram.determinant() > 0.0 && apart(gram.inverse() * view.offset));
 }
 
-/// Newton's method from here converges, by the theorem of Kantorovich, to a crossing with no other one near.
+/// Whether Newton's method converges from here, by the theorem of Kantorovich, to a crossing that has no other nearby.
 bool is_settled(const View& view, const Patch& patch) {
   const double least = view.slopes.jacobiSvd().singularValues()[1];
   if (!(least > 0.0)) return false;
@@ -110,7 +110,7 @@ class Search {
       add(cap, view_at(cap.point()));
     }
     for (Index node = 0; node < grid_.n_points(); ++node) add(patch_around(node), view_of(node));
-    // Most of the others then cannot lie higher than what is found.
+    // Highest first: most other patches then cannot lie above the crossing already found.
     std::sort(highest_first.begin(), highest_first.end());
     for (const auto& [height, start] : highest_first) search(starts[start].patch, starts[start].view, 0);
     return best_;
@@ -134,7 +134,7 @@ class Search {
     }
   }
 
-  /// All of it is nearer to a crossing that was found than another one can be.
+  /// Whether the whole patch is closer to a known crossing than any other crossing can be.
   [[nodiscard]] bool is_known(const Patch& patch) const {
     const Vector3 centre = patch.node.moved(patch.centre);
     return std::any_of(found_.begin(), found_.end(), [&](const Crossing& crossing) {
@@ -145,7 +145,7 @@ class Search {
   void newton(const Patch& patch, View here) {
     constexpr int kMost = 50;
     constexpr double kLeastShare = 1e-2;
-    // A step from there ends at rounding.
+    // One more step from there is accurate to rounding.
     constexpr double kConverged = 1e-11;
     SpherePoint at = patch.point();
     double share = 1.0;
@@ -169,7 +169,7 @@ class Search {
       if (last) break;
     }
     if (!(here.offset.norm() <= kConverged * size_)) return;
-    // Two crossings at a distance d need second derivatives of 2/d times the least slope; ours hold for the patch.
+    // Two crossings at a distance d require second derivatives of 2/d times the least slope; bounds hold in the patch.
     const double least = here.slopes.jacobiSvd().singularValues()[1];
     found_.push_back({direction(at), std::min(patch.radius(), 2.0 * least / patch.bends.offset)});
     if (here.height <= best_height_) return;
@@ -216,21 +216,21 @@ class Search {
     return most;
   }
 
-  /// Where the cells of the latitudes before and behind meet; those at the poles reach half way.
+  /// Colatitude between the cells of latitudes row − 1 and row; the polar caps reach half way to the next node.
   [[nodiscard]] double boundary(Index row) const {
     const double before = row == 0 ? 0.0 : grid_.theta[row - 1];
     const double behind = row == grid_.n_theta ? std::numbers::pi : grid_.theta[row];
     return 0.5 * (before + behind);
   }
 
-  /// Holds the cell of the node: half way to its neighbours.
+  /// Patch that contains the cell of the node, which reaches half way to its neighbours.
   [[nodiscard]] Patch patch_around(Index node) const {
     const Index row = node / grid_.n_phi;
     const double theta = grid_.theta[row];
     const double widest = std::sin(std::clamp(0.5 * std::numbers::pi, boundary(row), boundary(row + 1)));
     const Eigen::Vector2d half(std::max(theta - boundary(row), boundary(row + 1) - theta),
                                widest * std::numbers::pi / static_cast<double>(grid_.n_phi));
-    // Parallels bend away from great circles.
+    // Parallels are not great circles.
     constexpr double kOverlap = 1.1;
     return {TangentFrame(point_of(grid_, node)), kOverlap * half,
             most_bent(row - 1, row + 1, node % grid_.n_phi - 1, 3)};

@@ -2,9 +2,9 @@
 
 namespace vehd {
 
-/// Degrees p of the harmonics that scenes and files may have.
+/// Lowest degree p of the harmonics in scenes and files.
 constexpr int lowest_order = 4;
-/// See lowest_order.
+/// Highest degree p of the harmonics in scenes and files.
 constexpr int highest_order = 64;
 
 }  // namespace vehd

@@ -8,24 +8,24 @@
 
 namespace vehd {
 
-/// A map of space that leaves the origin where it is: a product of mirrors, then a turn about z.
+/// Isometry of space that fixes the origin: a product of mirrors, then a rotation about z.
 struct Isometry {
   Reflection reflection{};
   int turn = 0, fold = 1;  ///< by 2π turn/fold
 
-  /// A x of the map x ↦ A x.
+  /// Matrix A of the map x ↦ A x.
   [[nodiscard]] Matrix3 matrix() const;
 };
 
-/// Fields on the image of a body under a map g, whose parametrisation is x'(g s) = g x(s).
-/// Accuracy: exact for reflections, rounding for turns (tests/sphere/images_of_fields_test.cpp)
+/// Maps fields on a body to those on its image under a map g, whose parametrisation is x'(g s) = g x(s).
+/// Accuracy: exact for reflections, rounding for rotations (tests/sphere/images_of_fields_test.cpp)
 struct ImageOfFields {
   Isometry map{};
-  int potential_sign = 1;  ///< of V_m, which changes its sign where the map reverses the field
+  int potential_sign = 1;  ///< of V_m: −1 if the map reverses the electric field
 
   /// f'(g s) = f(s).
   /// @param field  coefficients, [n_coefficients x n_fields], or empty
-  /// @return       likewise
+  /// @return       coefficients of the same shape
   /// @throws ShapeError if the number of rows is not (p + 1)²
   [[nodiscard]] Matrix scalar(const Matrix& field) const;
   /// scalar() times potential_sign, for V_m, potentials and charges, [n_coefficients x n_fields].
@@ -34,15 +34,15 @@ struct ImageOfFields {
   [[nodiscard]] Matrix vector(const Matrix& field) const;
 };
 
-/// Equal bodies that change places under symmetries of the whole: a group of maps under which each body either stays
-/// where it is or has as many images as there are maps. Of those that are images of one another only the first, their
-/// original, has to be computed. By default no body is the image of another one.
+/// Permutations of equal bodies by the symmetries of a scene: a group of maps under which each body either stays where
+/// it is or has as many images as there are maps. Of bodies that are images of one another only the first, their
+/// original, is computed. By default no body is the image of another.
 class Exchange {
  public:
   /// A map of the group, with its effect on fields and bodies.
   struct Map {
     ImageOfFields of_fields;
-    std::vector<std::size_t> places;  ///< of each body the one that it is taken to
+    std::vector<std::size_t> places;  ///< for each body, the index of its image
   };
 
   Exchange() = default;
@@ -51,27 +51,27 @@ class Exchange {
 
   /// Is any body the image of another one?
   [[nodiscard]] bool any() const { return !bodies_.empty(); }
-  /// The group has turns by 2π/fold about z; 1 without turns.
+  /// The group contains the rotations by multiples of 2π/fold about z; 1 without rotations.
   [[nodiscard]] int fold() const { return maps_.back().of_fields.map.fold; }
   /// All maps except the identity.
   [[nodiscard]] std::vector<Isometry> maps() const;
-  /// Original of each body, which is itself if it is no image; empty without images.
+  /// Original of each body (the body itself unless it is an image); empty without images.
   [[nodiscard]] const std::vector<std::size_t>& originals() const { return originals_; }
   [[nodiscard]] std::size_t original(std::size_t body) const { return any() ? originals_[body] : body; }
   [[nodiscard]] bool is_image(std::size_t body) const { return original(body) != body; }
-  /// Number of bodies, of n, that are not images.
+  /// Number of the n bodies that are not images.
   [[nodiscard]] std::size_t n_originals(std::size_t n) const;
-  /// Maps fields of its original to those of a body.
+  /// Map from the fields of the original to those of a body.
   [[nodiscard]] const ImageOfFields& image(std::size_t body) const { return map_of(body).of_fields; }
-  /// The body that the map which makes `image` from its original takes to `body`: what the image does to the one, its
-  /// original does to the other.
+  /// g⁻¹(body), where g maps the original of `image` to `image`: the action of `image` on `body` is that of the
+  /// original on g⁻¹(body).
   [[nodiscard]] std::size_t preimage(std::size_t image, std::size_t body) const;
 
  private:
   [[nodiscard]] const Map& map_of(std::size_t body) const { return maps_[any() ? bodies_[body] : 0]; }
 
   std::vector<Map> maps_{1};
-  std::vector<std::size_t> bodies_;  ///< of each the number of the map from its original
+  std::vector<std::size_t> bodies_;  ///< for each body, the index of the map from its original
   std::vector<std::size_t> originals_;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using Spectrum = std::vector<std::complex<double>>;
 
-/// FFTW's planner is the one part of it that is not thread safe.
+/// The planner is the only part of FFTW that is not thread safe.
 std::mutex& planner_mutex() {
   static std::mutex mutex;
   return mutex;
@@ -38,7 +38,7 @@ FastFourier::FastFourier(int n_phi, int order) : n_phi_(n_phi), order_(order) {
 void FastFourier::synthesize(Index rows, const double* amplitudes, Index stride, double* values) const {
   Spectrum spectrum;
   for (Index row = 0; row < rows; ++row) {
-    // The transform overwrites what it is given.
+    // The inverse transform overwrites its input.
     spectrum.assign(static_cast<std::size_t>(n_phi_ / 2 + 1), 0.0);
     spectrum[0] = amplitudes[row];
     for (int m = 1; m <= order_; ++m) {

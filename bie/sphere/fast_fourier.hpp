@@ -10,9 +10,9 @@
 namespace vehd {
 
 /// Fourier sums over the longitudes of one circle in O(n log n), see FourierSums; for long circles.
-/// Plans are made with FFTW_ESTIMATE, since a measured plan, and with it the last bits, may differ from run to run.
-/// Copies share their plans; every call may run concurrently.
-/// Accuracy: rounding; the same values as by products of matrices (tests/sphere/fourier_test.cpp)
+/// Plans are made with FFTW_ESTIMATE: measured plans, and with them the last bits of the results, differ from run to
+/// run. Copies share their plans; calls are thread safe.
+/// Accuracy: rounding; agrees with products of matrices (tests/sphere/fourier_test.cpp)
 /// Source: FFTW (Frigo and Johnson 2005)
 class FastFourier {
  public:

@@ -16,7 +16,7 @@ namespace {
 
 /// Longitudes of axisymmetric fields, where sines and cosines are 0 and ±1.
 constexpr int kQuarterTurns = 4;
-/// Latitudes whose sums stay in registers with those of their images, eight sums each; and longitudes of a register.
+/// Most latitudes whose sums, eight each with their mirror images, stay in registers; longitudes per register.
 #ifdef __AVX512F__
 constexpr int kMostLatitudes = 3;
 constexpr int kWidest = 2 * kLanes;
@@ -24,15 +24,15 @@ constexpr int kWidest = 2 * kLanes;
 constexpr int kMostLatitudes = 1;
 constexpr int kWidest = kLanes;
 #endif
-/// Up to this order products take less than fast transforms: measured without AVX, and with it at all degrees up to 64,
-/// where they take half as long (docs/performance.md).
+/// Up to this order products are faster than fast transforms: measured without AVX, and with AVX at all degrees up to
+/// 64, where they take half the time (docs/performance.md).
 #ifdef __AVX__
 constexpr int kMostByProducts = 128;
 #else
 constexpr int kMostByProducts = 32;
 #endif
 
-/// So many numbers that are read by nobody else. Rows are summed so often that asking for memory shows.
+/// Workspace of `count` numbers, one per thread. Rows are summed so often that allocation would take noticeable time.
 double* of_this_thread(Index count) {
   thread_local std::unique_ptr<double[]> numbers;
   thread_local Index n_numbers = 0;
@@ -59,7 +59,7 @@ struct QuarterSums {
   Longitudes<kWidth> even_cosines, odd_cosines, even_sines, odd_sines;
 };
 
-/// Puts one row at longitudes φ, π − φ, π + φ and −φ of some φ from the at-th of the quarter on.
+/// Writes one row at longitudes φ, π − φ, π + φ and −φ, for kWidth values of φ from index `at` of the quarter on.
 template <int kWidth>
 void unfold(const QuarterSums<kWidth>& sums, Index at, Index n_phi, double* values) {
   const auto put = [](double* to, const Longitudes<kWidth>& lanes) { Lanes<kWidth>::store(to, lanes); };
@@ -80,7 +80,7 @@ void unfold(const QuarterSums<kWidth>& sums, Index at, Index n_phi, double* valu
   }
 }
 
-/// The same where a quarter does not fill a register.
+/// unfold() for a quarter that does not fill a register.
 void unfold_few(const QuarterSums<kLanes>& sums, Index n_quarter, Index n_phi, double* values) {
   double *here = values, *opposite = values + n_phi / 2, *below = values + n_phi;
   for (Index k = 0; k < n_quarter; ++k) {
@@ -95,7 +95,7 @@ void unfold_few(const QuarterSums<kLanes>& sums, Index n_quarter, Index n_phi, d
   }
 }
 
-/// Values of one row at φ, π − φ, π + φ and −φ added up as even and odd orders of cosines and sines see them.
+/// Combinations of the values of one row at φ, π − φ, π + φ and −φ that enter even and odd orders of cosines and sines.
 template <typename Number>
 struct Folded {
   Number even_cosines, odd_cosines, even_sines, odd_sines;
@@ -110,12 +110,12 @@ struct Folded {
   }
 };
 
-/// Where they go: a row of each.
+/// Destination rows of the folded sums.
 struct FoldedRows {
   double *even_cosines, *odd_cosines, *even_sines, *odd_sines;
 };
 
-/// The values themselves, or with those of a mirror image.
+/// Values of one latitude without or with those of its mirror image.
 struct Alone {
   const double* row;
   template <int kWidth>
@@ -135,11 +135,11 @@ struct WithImage {
   [[nodiscard]] double one(Index k) const { return kSign > 0 ? row[k] + image[k] : row[k] - image[k]; }
 };
 
-/// The longitudes from 1 to before the end, which are one register at least.
+/// Folds longitudes 1 to end − 1, which fill at least one register.
 template <int kWidth, typename Values>
 void fold_registers(const Values& values, Index end, Index n_phi, const FoldedRows& to) {
   const Index half = n_phi / 2;
-  // Rows are so short that what is left over would take as long as all else: the last registers overlap others.
+  // Rows are so short that a scalar remainder would take as long as the rest: the last registers overlap others.
   for (Index k = 1; k < end; k += kWidth) {
     const Index at = std::min<Index>(k, end - kWidth), mirrored = at + kWidth - 1;
     const auto lanes = [&](Index first) { return values.template lanes<kWidth>(first); };
@@ -155,7 +155,7 @@ void fold_registers(const Values& values, Index end, Index n_phi, const FoldedRo
 template <typename Values>
 void fold(const Values& values, Index n_quarter, Index n_phi, const FoldedRows& to) {
   const Index half = n_phi / 2;
-  // Where two of the four longitudes coincide, what these would cancel from meets zeros in the tables.
+  // Where two of the four longitudes coincide, the sums that should cancel are multiplied by zeros of the tables.
   const auto fold_pair = [&](Index k) {
     const double here = values.one(k), opposite = values.one(half + k);
     to.even_cosines[k] = to.even_sines[k] = here + opposite;
@@ -206,10 +206,10 @@ void FourierSums::synthesize_rows(Index first, Index n_theta, const HemisphereAm
                                   double* values) const {
   const Index stride = amplitudes.stride, width = filled_up(n_quarter_), last = std::max<Index>(n_quarter_ - kWidth, 0);
   for (Index k = 0; k < n_quarter_; k += kWidth) {
-    // Rows are so short that what is left over would take as long as all else: the last registers overlap others.
+    // Rows are so short that a scalar remainder would take as long as the rest: the last registers overlap others.
     const Index at = std::min(k, last);
     const double *cosine = synthesis_.data() + at, *sine = cosine + (amplitudes.minus_sines ? 2 : 1) * width;
-    // Of the symmetric and the antisymmetric part.
+    // [symmetric or antisymmetric part][parity of m][latitude].
     Longitudes<kWidth> cosines[2][2][kRows] = {}, sines[2][2][kRows] = {};
     const auto add = [&](int m, int parity) {
       const Longitudes<kWidth> of_cosine = Lanes<kWidth>::load(cosine + m * synthesis_.cols());
@@ -240,7 +240,7 @@ void FourierSums::synthesize_rows(Index first, Index n_theta, const HemisphereAm
         unfold(sums, at, n_phi_, values + row * n_phi_);
       };
       const Index row = first + r;
-      // The equator is its own image, and stays what it is in the north.
+      // The equator is its own image: the northern row, written last, is the correct one.
       put_row({cosines[0][0][r] - cosines[1][0][r], cosines[0][1][r] - cosines[1][1][r],
                sines[0][0][r] - sines[1][0][r], sines[0][1][r] - sines[1][1][r]},
               n_theta - 1 - row);

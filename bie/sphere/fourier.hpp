@@ -8,18 +8,18 @@
 
 namespace vehd {
 
-/// Amplitudes of one function on the latitudes of a hemisphere, the equator among them: of its part that is symmetric
-/// about the equator, and behind that of the antisymmetric one. Those of order m on the i-th latitude are at
-/// [m * stride + i]; all are finite, sines of m = 0 count for nothing.
+/// Fourier amplitudes of one function on the latitudes of a hemisphere, equator included: first of its part that is
+/// symmetric about the equator, then of the antisymmetric part. Order m on the i-th latitude is at [m * stride + i].
+/// All entries must be finite; sines of m = 0 do not contribute.
 struct HemisphereAmplitudes {
   std::array<const double*, 2> cosines, sines;
   Index stride;
-  bool minus_sines = false;  ///< sines count negative
+  bool minus_sines = false;  ///< sines enter with the opposite sign
 };
 
-/// Layout of the amplitudes that analysis finds: a block for each part, for even and odd m, and for cosines and sines,
-/// numbered in this order with the last one fastest. Block b is at data + b * block: [latitudes x row_length] with
-/// order m in column m/2.
+/// Layout of the amplitudes that analysis computes: one block for each part, parity of m, and cosine or sine, numbered
+/// in this order with the last index fastest. Block b is at data + b * block: [latitudes x row_length] with order m in
+/// column m/2.
 struct FoundAmplitudes {
   static constexpr int kBlocks = 8;
   double* data;
@@ -28,10 +28,10 @@ struct FoundAmplitudes {
   static constexpr int number(int part, int m, bool sine) { return (part * 2 + m % 2) * 2 + (sine ? 1 : 0); }
 };
 
-/// Fourier sums over equispaced longitudes φ_k = 2πk/n_phi, on all latitudes of a grid that is its own mirror image:
+/// Fourier sums over equispaced longitudes φ_k = 2πk/n_phi, on all latitudes of a grid symmetric about the equator:
 ///   f(φ) = Σ_m (C_m cos mφ + S_m sin mφ),  m = 0 … order,
-/// as products of small matrices over a quarter of the circle and a hemisphere, since longitudes φ, π − φ, π + φ and −φ
-/// and latitudes θ and π − θ differ in signs alone, or of high orders by FastFourier, whichever takes less
+/// as products of small matrices over a quarter of the circle and a hemisphere, since terms at longitudes ±φ and π ± φ
+/// and at latitudes θ and π − θ differ only in sign; for high orders by FastFourier if that is faster
 /// (docs/performance.md).
 /// Accuracy: rounding; round trips of the transform to 2e-13 (tests/sphere/transform_test.cpp)
 class FourierSums {
@@ -45,18 +45,18 @@ class FourierSums {
 
   /// @param values  [n_theta x n_phi], φ fastest
   void synthesize(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
-  /// Northern latitudes plus, for the antisymmetric part minus, their mirror images; the equator, which is its own one,
-  /// counts once. Exact for waves up to the order.
+  /// Amplitudes of northern latitudes plus (antisymmetric part: minus) their mirror images; the equator counts once.
+  /// Exact for Fourier modes up to the order.
   void analyze(Index n_theta, const double* values, const FoundAmplitudes& amplitudes) const;
 
  private:
   /// Cosines, sines and minus sines of even and of odd orders.
   static constexpr int kWaves = 3;
 
-  /// As many longitudes at a time.
+  /// Processes kWidth longitudes at a time.
   template <int kWidth>
   void synthesize_by_products(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
-  /// So many latitudes from the first one on with their images.
+  /// Processes kRows latitudes from `first` on with their mirror images.
   template <int kRows, int kWidth>
   void synthesize_rows(Index first, Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
   void synthesize_quarter_turns(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
@@ -70,7 +70,7 @@ class FourierSums {
   Index row_length_;
   RowMatrix synthesis_;                               ///< [orders x kWaves quarters, each filled up with zeros]
   std::array<std::array<RowMatrix, 2>, 2> analysis_;  ///< of m even and odd, of cosines and sines: [quarter x orders]
-  std::optional<FastFourier> fast_;                   ///< of high orders, in the place of the tables
+  std::optional<FastFourier> fast_;                   ///< for high orders, instead of the tables
 };
 
 }  // namespace vehd

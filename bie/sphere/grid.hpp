@@ -25,8 +25,8 @@ SphereGrid make_grid(int order);
 /// The p + 1 latitudes of make_grid(order) with n_phi longitudes, for fields with few Fourier modes in φ.
 SphereGrid make_grid(int order, int n_phi);
 
-/// Longitudes of upsampled grids: the least multiple of `step` from `least`, without a prime above 13 in the other
-/// factor, on which the Fourier transform of any library is fast as well.
+/// Number of longitudes of an upsampled grid: the smallest multiple of `step` not below `least` whose other factor has
+/// no prime above 13, so that the Fourier transform of any library is fast.
 int fast_longitudes(int least, int step = 2);
 
 /// Gauss-Legendre rule on [-1, 1], nodes ascending.

@@ -35,8 +35,8 @@ Matrix resize_order(const Matrix& coefficients, int order) {
 
 namespace {
 
-/// Points of one register, registers that are summed side by side, so that none waits for the recurrence of another,
-/// and fields whose sums stay in registers with them.
+/// Points per register, registers summed side by side to hide the latency of the recurrence, and the largest number of
+/// fields whose sums stay in registers as well.
 #ifdef __AVX512F__
 constexpr Index kPointsOfRegister = 2 * kLanes;
 constexpr Index kRegisters = 2;
@@ -51,19 +51,19 @@ constexpr Index kGroupsTogether = 4;
 
 using PointLanes = Lanes<kPointsOfRegister>::Values;
 
-/// Cosine and sine of θ, then of φ, of as many points as fill groups.
+/// cos θ, sin θ, cos φ and sin φ of the points, padded to whole groups.
 using Waves = Eigen::Matrix<double, Eigen::Dynamic, 4>;
 
 Waves waves_of(Index n_points) { return Waves::Zero((n_points + kGroup - 1) / kGroup * kGroup, 4); }
 
-/// Orders m and in each of them degrees n in the order in which they are summed.
+/// Recurrences and coefficients in the order of summation: orders m, and for each the degrees n.
 struct Series {
   int order, azimuthal_order;
   Index n_fields;
-  std::vector<LegendreRecurrence> recurrence;  ///< of T(n, m) from T(n − 1, m) and T(n − 2, m); at n = m nothing
+  std::vector<LegendreRecurrence> recurrence;  ///< of T(n, m) from T(n − 1, m) and T(n − 2, m); zero at n = m
   std::vector<double> coefficients;            ///< per degree those of cosines of all fields, then of sines
 
-  /// @param fields  some columns
+  /// @param fields  coefficients, at most kMostFields columns
   Series(const Eigen::Ref<const Matrix>& fields, int highest_degree, int highest_order)
       : order(highest_degree), azimuthal_order(highest_order), n_fields(fields.cols()) {
     for (int m = 0; m <= azimuthal_order; ++m) {
@@ -137,7 +137,7 @@ void sum_at_group(const Series& series, const Waves& waves, Index first, Eigen::
   }
 }
 
-/// @param waves  of as many points as values has rows
+/// @param waves  of the points that the rows of `values` belong to
 void sum_series(const Series& series, const Waves& waves, Eigen::Ref<Matrix> values) {
   static constexpr auto sums = []<int... kBefore>(std::integer_sequence<int, kBefore...>) {
     return std::array{&sum_at_group<kBefore + 1>...};
@@ -154,7 +154,7 @@ void sum_series(const Series& series, const Waves& waves, Eigen::Ref<Matrix> val
   });
 }
 
-/// At n_points points.
+/// Values at the points, [n_points x n_fields].
 Matrix values_of(const Matrix& coefficients, const Waves& waves, Index n_points, int azimuthal_order) {
   const int order = order_of(coefficients.rows());
   Matrix values(n_points, coefficients.cols());
@@ -188,7 +188,7 @@ Matrix evaluate_harmonics(const Matrix& coefficients, const Matrix& directions, 
     const double from_axis = std::sqrt(x * x + y * y), length = std::sqrt(x * x + y * y + z * z);
     waves(i, 0) = z / length;
     waves(i, 1) = from_axis / length;
-    // On the axis φ is of no account.
+    // On the axis φ is arbitrary.
     waves(i, 2) = from_axis > 0.0 ? x / from_axis : 1.0;
     waves(i, 3) = from_axis > 0.0 ? y / from_axis : 0.0;
   }

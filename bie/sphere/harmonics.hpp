@@ -20,30 +20,30 @@ constexpr Index coefficient_index(int n, int m) { return Index{n} * n + n + m; }
 int degree_of(Index index);
 
 /// Order p of a coefficient array with (p+1)² rows.
-/// @throws ShapeError if the count is no square
+/// @throws ShapeError if the count is not a square
 int order_of(Index n_coefficients);
 
 /// Coefficient of degree 0 of the field that is 1 everywhere: 1/Y_{0,0}.
 inline const double coefficient_of_one = std::sqrt(4.0 * std::numbers::pi);
 
-/// Mean of a vector field over the parameter sphere, of a position a point within the body that moves with it.
+/// Mean of a vector field over the parameter sphere; of a position, a point within the body that moves with the body.
 /// @param coefficients  [n_coefficients x 3]
 inline Vector3 mean_vector(const Matrix& coefficients) { return coefficients.row(0).transpose() / coefficient_of_one; }
 
-/// Coefficients cut or padded with zeros to another order, [(order + 1)² x n_fields].
+/// Coefficients truncated or padded with zeros to another order, [(order + 1)² x n_fields].
 Matrix resize_order(const Matrix& coefficients, int order);
 
 /// Values at arbitrary points: [n_points x n_fields] from coefficients [(p+1)² x n_fields].
 /// @param theta, phi  in radians, [n_points] each; θ = 0 and π are allowed
 /// @throws ShapeError if the number of rows is not (p + 1)², or theta and phi differ in length
 /// Cost O(n_points p²).
-/// Accuracy: rounding; low degrees are the written formulas to 1e-14 (tests/sphere/transform_test.cpp)
+/// Accuracy: rounding; low degrees agree with their explicit formulas to 1e-14 (tests/sphere/transform_test.cpp)
 /// Source: paper Eqs. (16), (17)
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi);
-/// [n_points x n_fields] from the harmonics with |m| ≤ azimuthal_order alone, at cost O(n_points p azimuthal_order).
+/// Values [n_points x n_fields] for |m| ≤ azimuthal_order only, at cost O(n_points p azimuthal_order).
 Matrix evaluate_harmonics(const Matrix& coefficients, const Vector& theta, const Vector& phi, int azimuthal_order);
-/// [n_points x n_fields] in given directions.
-/// @param directions  [n_points x 3], of any length but zero
+/// Values [n_points x n_fields] in given directions.
+/// @param directions  [n_points x 3], of any nonzero length
 /// @throws ShapeError if there are not three columns
 Matrix evaluate_harmonics(const Matrix& coefficients, const Matrix& directions, int azimuthal_order);
 

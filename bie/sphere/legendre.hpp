@@ -21,7 +21,7 @@ struct LegendreTables {
 /// Source: normalised three-term recurrence in n from the sectoral functions, Holmes and Featherstone 2002
 LegendreTables legendre_tables(int order, const Vector& theta);
 
-/// Tables [n_theta x (order + 1 − m)] for m ≤ highest_m; some tables have further m as well.
+/// Tables [n_theta x (order + 1 − m)] for m ≤ highest_m; some tables contain higher m as well.
 LegendreTables legendre_tables(int order, const Vector& theta, int highest_m);
 
 /// Coefficients of the three-term recurrence T_n = a (cos θ T_{n−1} − b T_{n−2}) at fixed m < n.
@@ -29,7 +29,7 @@ struct LegendreRecurrence {
   double a;
   double b;
 };
-/// See LegendreRecurrence; 0 ≤ m < n.
+/// Recurrence coefficients for 0 ≤ m < n.
 LegendreRecurrence legendre_recurrence(int n, int m);
 
 /// The factor of T_mm = legendre_sectoral_factor(m) sin θ T_{m−1,m−1}; T_00 = 1/√(4π).

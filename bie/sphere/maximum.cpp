@@ -13,14 +13,14 @@
 namespace vehd {
 namespace {
 
-/// A step to the top of a parabola, and how much higher that is.
+/// Step to the maximum of a parabola, and the gain in value.
 struct Climb {
   Eigen::Vector2d step = Eigen::Vector2d::Zero();
   double gain = 0.0;
-  bool near = true;  ///< the top is within reach
+  bool near = true;  ///< the maximum is within reach
 };
 
-/// Along the directions in which the field is curved downwards. On the ridge of a ring there is only one.
+/// Newton step along the directions in which the field curves downwards. On the ridge of a ring there is only one.
 Climb climb(const Eigen::Vector2d& gradient, const Eigen::Matrix2d& hessian, double reach) {
   constexpr double kFlat = 1e-6;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
@@ -44,7 +44,7 @@ Climb climb(const Eigen::Vector2d& gradient, const Eigen::Matrix2d& hessian, dou
 
 Top top_of(const SphereGrid& grid, const SphereDerivatives& nodes, Index column, const Vector& coefficients,
            double sign) {
-  // Beyond the distance of two nodes a parabola says nothing.
+  // Beyond the node spacing a parabola is not a valid approximation.
   const double reach = std::numbers::pi / static_cast<double>(grid.n_theta);
   const double scale = nodes.value.col(column).cwiseAbs().maxCoeff();
   const int azimuthal_order = azimuthal_order_of(coefficients);
@@ -79,7 +79,7 @@ Top top_of(const SphereGrid& grid, const SphereDerivatives& nodes, Index column,
   std::vector<std::pair<double, Index>> promises;
   for (Index node = 0; node < grid.n_points(); ++node) {
     const double value = sign * nodes.value(node, column);
-    // Along either axis a parabola gains less than its slope does within reach.
+    // Along either axis a parabola gains less than its slope times the reach.
     const double d1 = nodes.d1(node, column), d2 = nodes.d2(node, column);
     const double gain = std::numbers::sqrt2 * std::sqrt(d1 * d1 + d2 * d2) * reach;
     if (node == largest || value + gain < most) continue;

@@ -5,20 +5,20 @@
 
 namespace vehd {
 
-/// Where a field is largest, and how large.
+/// Point and value of the maximum of a field.
 struct Top {
   SpherePoint point;
   double value = 0.0;
 };
 
-/// The top of sign · f, with the arguments of `maximum`. Of several that are equal to rounding it may be any.
+/// Point and value of the maximum of sign · f, arguments as in `maximum`; any of several that are equal to rounding.
 /// @param coefficients  of f, [n_coefficients]
 Top top_of(const SphereGrid& grid, const SphereDerivatives& nodes, Index column, const Vector& coefficients,
            double sign);
 
-/// Maximum of sign · f over the sphere, by Newton's method on the field from the largest node, and from up to three
-/// others whose parabolas promise most. Never above the true maximum; at rounding where the grid sees the highest top,
-/// be it a point or a ring, and else not below the largest node.
+/// Maximum of sign · f over the sphere, by Newton's method from the largest node and from up to three others whose
+/// parabolas predict the largest values. Never above the true maximum; accurate to rounding if the grid resolves the
+/// highest maximum, be it a point or a ring; never below the largest nodal value.
 /// @param nodes   fields on the grid with their Hessians, each [n_points x n_fields]
 /// @param column  of f among them
 /// @param coefficients  of f, [n_coefficients]

@@ -11,18 +11,18 @@ struct SpherePoint {
   double phi = 0.0;
 };
 
-/// The point of a node of the grid.
+/// Point of a grid node.
 SpherePoint point_of(const SphereGrid& grid, Index node);
-/// The point in the direction of a vector of any length but zero.
+/// Point in the direction of a nonzero vector.
 SpherePoint point_of(const Vector3& vector);
 
-/// The unit vector of a point.
+/// Unit vector of a point.
 Vector3 direction(const SpherePoint& point);
 
 /// End of the great-circle arc that leaves a unit vector along a tangent and is as long as the tangent.
 Vector3 along_great_circle(const Vector3& from, const Vector3& tangent);
 
-/// A point with its frame.
+/// A point with its frame (r̂, e_θ, e_φ).
 struct TangentFrame {
   SpherePoint point;
   Vector3 radial, e_theta, e_phi;

@@ -20,13 +20,13 @@ struct PointDerivatives {
 /// Values and covariant derivatives of all fields at one point.
 /// @param coefficients     [n_coefficients x n_fields]
 /// @param azimuthal_order  largest |m| with a coefficient that is not zero, see azimuthal_order_of
-/// @throws ShapeError if the count of rows is no (p + 1)²
-/// Accuracy: rounding, as the transform's (tests/sphere/point_derivatives_test.cpp)
+/// @throws ShapeError if the number of rows is not (p + 1)²
+/// Accuracy: rounding, as for the transform (tests/sphere/point_derivatives_test.cpp)
 PointDerivatives point_derivatives(const Matrix& coefficients, const SpherePoint& point, int azimuthal_order);
 /// point_derivatives of fields with any m, from coefficients [n_coefficients x n_fields].
 PointDerivatives point_derivatives(const Matrix& coefficients, const SpherePoint& point);
 
-/// point_derivatives at many points, [n_coefficients x n_fields], in a quarter of the time that single points take.
+/// point_derivatives at many points from coefficients [n_coefficients x n_fields], four times as fast as single points.
 std::vector<PointDerivatives> point_derivatives(const Matrix& coefficients, const std::vector<SpherePoint>& points);
 
 }  // namespace vehd

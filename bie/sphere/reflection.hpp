@@ -10,7 +10,7 @@ namespace vehd {
 struct Reflection {
   int x = 1, y = 1, z = 1;
 
-  /// Sign of the coordinate with this number.
+  /// Sign of the coordinate with this index.
   [[nodiscard]] int sign(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
   /// Sign of cos mφ (m ≥ 0) or sin |m|φ (m < 0) under the map of the azimuth.
   [[nodiscard]] int azimuthal_parity(int m) const {
@@ -21,7 +21,7 @@ struct Reflection {
   [[nodiscard]] int parity(int n, int m) const {
     return (z > 0 || (n + std::abs(m)) % 2 == 0 ? 1 : -1) * azimuthal_parity(m);
   }
-  /// Where the map takes azimuth k of n_phi equispaced ones that start at φ = 0; n_phi must be even.
+  /// Index of the image of azimuth k of n_phi equispaced azimuths that start at φ = 0; n_phi must be even.
   [[nodiscard]] int azimuth(int k, int n_phi) const {
     const int rotated = x * y > 0 ? k : n_phi - k;
     return (x > 0 ? rotated : rotated + n_phi / 2) % n_phi;

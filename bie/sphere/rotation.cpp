@@ -16,7 +16,7 @@ double parity(int m) { return m % 2 == 0 ? 1.0 : -1.0; }
 /// d^n_{m,k}(β) and d^n_{−m,k}(β) in Wigner's convention for n = k..order, 0 ≤ m ≤ k: their recurrences share the
 /// roots.
 /// @param cosine       cos β
-/// @param plus, minus  the entries of n = k are there
+/// @param plus, minus  results; the entries of n = k are given
 void wigner_sequences(int order, int m, int k, double cosine, Vector& plus, Vector& minus) {
   const double mm = double(m) * m;
   const double kk = double(k) * k;

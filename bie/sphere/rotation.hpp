@@ -22,11 +22,9 @@ struct RotationY {
 /// Source: Gimbutas and Veerapaneni 2013 for its use; recurrence of Wigner's d functions, Varshalovich et al. 1988
 RotationY rotation_y(int order, double beta);
 
-/// Coefficients of f(R⁻¹ s): every field, [n_coefficients x n_fields], rotated by R together with the sphere it lives
-/// on.
-/// Components of vectors are left as they are: their rotation is the caller's.
-/// Accuracy: rounding; there and back to 1e-13
-/// (tests/stepping/state/frame_test.cpp)
+/// Coefficients of f(R⁻¹ s): every field, [n_coefficients x n_fields], rotated by R together with its parameter sphere.
+/// Components of vectors are not rotated; the caller does that.
+/// Accuracy: rounding; a rotation and its inverse to 1e-13 (tests/stepping/state/frame_test.cpp)
 Matrix rotated_fields(const Matrix& coefficients, const Matrix3& rotation);
 
 }  // namespace vehd

@@ -9,13 +9,13 @@ namespace vehd {
 namespace {
 
 #ifdef __AVX512F__
-/// Doubles of one register. Rows and registers of C that stay in place: 24 sums, three pieces of B and one entry of A
-/// fill 28 of 32.
+/// Doubles per register. Rows of C, and registers per row, that stay in registers: 24 sums, three pieces of B and one
+/// entry of A use 28 of 32.
 constexpr int kWide = 2 * kLanes;
 constexpr int kMostRows = 8;
 #else
-/// Doubles of one register. Rows and registers of C that stay in place: twelve sums, three pieces of B and one entry of
-/// A fill sixteen.
+/// Doubles per register. Rows of C, and registers per row, that stay in registers: twelve sums, three pieces of B and
+/// one entry of A use all sixteen.
 #ifdef __AVX__
 constexpr int kWide = kLanes;
 #else
@@ -28,7 +28,7 @@ constexpr int kMostPieces = 3;
 template <int kWidth>
 struct Register {
   using Values [[gnu::vector_size(kWidth * sizeof(double))]] = double;
-  /// The same at any address of a double.
+  /// Values at any address of a double.
   using Anywhere [[gnu::vector_size(kWidth * sizeof(double)), gnu::aligned(alignof(double)), gnu::may_alias]] = double;
 };
 
@@ -55,8 +55,8 @@ void block(const double* entry, Index row_stride, Index column_stride, Index inn
   }
 }
 
-/// As many as fill registers, and of what is left the larger half, so that none stands alone: no division, which takes
-/// as long as a small block.
+/// Size of the next block: kMost while enough are left, then the larger half of the rest, so that no block has only
+/// one. Without a division, which takes as long as a small block.
 template <int kMost>
 Index next_share(Index left) {
   return left >= 2 * kMost ? kMost : left > kMost ? (left + 1) / 2 : left;

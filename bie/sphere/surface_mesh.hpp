@@ -13,7 +13,7 @@ namespace vehd {
 Matrix with_poles(const Matrix& grid_values, const Matrix& coefficients);
 
 /// Point indices, three per triangle, outward orientation; azimuth closed, a fan at either pole.
-/// Every edge has two triangles in opposite directions (tests/sphere/surface_mesh_test.cpp).
+/// Two triangles traverse every edge, in opposite directions (tests/sphere/surface_mesh_test.cpp).
 std::vector<std::int64_t> closed_triangles(const SphereGrid& grid);
 
 }  // namespace vehd

@@ -11,8 +11,8 @@ namespace vehd {
 
 namespace {
 
-/// Coefficients of scalar fields with f = sign · f(g s): an image changes coefficients in sign only, and those that
-/// change under one image of the group change under half of them.
+/// Coefficients of scalar fields with f(s) = sign · f(g s). A reflection changes only signs of coefficients. One that
+/// changes sign under any reflection does so under half of the group, so that the mean over the group is zero.
 std::vector<Index> kept_coefficients(const Symmetry& symmetry, const std::vector<int>& signs, int order) {
   std::vector<Index> result;
   for (int n = 0; n <= order; ++n) {
@@ -34,7 +34,7 @@ std::vector<int> component_signs(const Symmetry& symmetry, int component) {
   return signs;
 }
 
-/// The mirrors alone.
+/// The symmetry without rotations.
 Symmetry reflections_of(Symmetry symmetry) {
   symmetry.axisymmetric = false;
   symmetry.fold = 1;
@@ -47,8 +47,8 @@ Vector restricted(const std::vector<Index>& entries, const Vector& field) {
   return result;
 }
 
-/// Mean of a vector field and its images under the turns: of v_x + i v_y it has the part e^{imφ}, m = 1 modulo the
-/// fold, of v_z that with m = 0 modulo the fold.
+/// Mean of a vector field and its images under the rotations: it keeps the parts e^{imφ} of v_x + i v_y with m = 1
+/// modulo the fold and those of v_z with m = 0 modulo the fold.
 Matrix rotated_mean(int fold, const Matrix& field) {
   Matrix result = Matrix::Zero(field.rows(), 3);
   const auto is_multiple = [&](int m) { return m % fold == 0; };
@@ -95,7 +95,7 @@ Matrix axisymmetric_part(const Matrix& field) {
 }
 
 std::vector<std::vector<Index>> classes_of(const Symmetry& symmetry, int order) {
-  // A class is known by its |m| modulo the turns and by its signs under the reflections.
+  // The key of a class: ±m modulo the fold (|m| if axisymmetric) and the signs under the reflections.
   std::map<std::vector<int>, std::vector<Index>> classes;
   std::vector<int> key;
   for (int n = 0; n <= order; ++n) {

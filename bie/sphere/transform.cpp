@@ -15,13 +15,13 @@ namespace vehd {
 
 namespace {
 
-/// Which latitude table a derivative needs, whether ∂/∂φ exchanges cosine and sine, and whether what is symmetric about
-/// the equator becomes antisymmetric.
+/// Kinds of values: f, d1, d2, d11, d12, d22. For each, whether ∂/∂φ exchanges cosine and sine, and whether ∂/∂θ
+/// exchanges symmetric and antisymmetric about the equator.
 constexpr int kKinds = 6;
 constexpr std::array<bool, kKinds> kPhiDerivative{false, false, true, false, true, false};
 constexpr std::array<bool, kKinds> kThetaDerivative{false, true, false, false, true, false};
 
-/// Some of them: all from one to before another.
+/// A range of kinds, `end` excluded.
 struct Kinds {
   int first, end;
   [[nodiscard]] int count() const { return end - first; }
@@ -32,18 +32,17 @@ constexpr Index kParallelValues = 200000;
 
 }  // namespace
 
-/// Latitudes θ and π − θ differ in signs alone, so that tables hold one hemisphere, of degrees with n + m even and odd
-/// apart.
+/// Harmonics at θ and π − θ differ only in sign, so the tables hold one hemisphere, with n + m even and odd separate.
 struct SphereTransform::Tables {
   int order;
   int azimuthal_order;
   SphereGrid grid;
   FourierSums fourier;
   Index n_half;  ///< latitudes of a hemisphere, the equator among them
-  /// Per m and parity of n + m the values of value, d1, d2, d11, d12, d22 side by side: [degrees x 6 n_half], with so
-  /// many zeros behind them that kinds from any on fill registers.
+  /// Per m and parity of n + m the tables of value, d1, d2, d11, d12, d22 side by side: [degrees x 6 n_half], padded
+  /// with zeros so that a range of kinds from any one on fills registers.
   std::vector<std::array<RowMatrix, 2>> synthesis;
-  /// Likewise the value times Gauss weight and φ spacing: [n_half x degrees filled up].
+  /// Per m and parity of n + m the value times Gauss weight and ∫cos² mφ dφ: [n_half x degrees filled up].
   std::vector<std::array<RowMatrix, 2>> analysis;
 
   Tables(int order_, SphereGrid grid_, int azimuthal_order_)
@@ -55,8 +54,7 @@ struct SphereTransform::Tables {
         synthesis(azimuthal_order + 1),
         analysis(azimuthal_order + 1) {
     const LegendreTables legendre = legendre_tables(order, grid.theta.head(n_half));
-    // The amplitudes of FourierSums are those of the function itself: ∫ 1 dφ is n_phi spacings, ∫ cos² mφ dφ half of
-    // it.
+    // FourierSums gives amplitudes, not integrals: ∫ 1 dφ is n_phi spacings, ∫ cos² mφ dφ half of that.
     Vector weight = grid.weight.head(n_half);
     for (int m = 0; m <= azimuthal_order; ++m) {
       const double circle = grid.n_phi * (m == 0 ? 1.0 : 0.5);
@@ -93,28 +91,27 @@ struct SphereTransform::Tables {
   [[nodiscard]] Matrix analyze(const Matrix& values) const;
 
  private:
-  /// Amplitudes of all orders behind each other, of either parity of n + m: [cosines of all fields, then sines x
-  /// width].
+  /// Amplitudes of all orders one after another, per parity of n + m: [cosines of all fields, then sines x width].
   struct DegreeSums {
-    Index width;   ///< of a row with the kinds of a hemisphere side by side, filled up
+    Index width;   ///< of a row: the kinds side by side on a hemisphere, filled up
     Index stride;  ///< from one order to the next
     std::unique_ptr<double[]> data;
 
     [[nodiscard]] double* of(int m, int parity) const { return data.get() + m * stride + parity * (stride / 2); }
   };
   [[nodiscard]] DegreeSums degree_sums(Index n_fields, const Kinds& kinds) const;
-  /// @param gathered  room for the coefficients of one order
+  /// @param gathered  workspace for the coefficients of one order
   void sum_degrees(const Matrix& coefficients, const Kinds& kinds, int m, double* gathered,
                    const DegreeSums& sums) const;
-  /// One kind of one field. @param place  of the kind among those there are
+  /// Values of one kind of one field. @param place  index of the kind within the range
   void sum_orders(const DegreeSums& sums, Index n_fields, Index field, int kind, Index place, double* values) const;
-  /// FoundAmplitudes of all fields, behind each other in every block.
+  /// FoundAmplitudes of all fields, one after another in every block.
   struct OrderAmplitudes {
     Index of_field;
     Index block;
     std::unique_ptr<double[]> data;
   };
-  /// Coefficients of one m. @param sums  as many as they are, filled up
+  /// Coefficients of one m. @param sums  workspace for as many, filled up
   void find_degrees(const OrderAmplitudes& amplitudes, int m, double* sums, Matrix& coefficients) const;
 };
 
@@ -129,7 +126,7 @@ void SphereTransform::Tables::sum_degrees(const Matrix& coefficients, const Kind
   for (const int parity : {0, 1}) {
     const Index count = n_degrees(m, parity);
     if (count == 0) {
-      // The table is empty, so it has no address to begin at.
+      // The table is empty and has no address.
       std::fill_n(sums.of(m, parity), sums.stride / 2, 0.0);
       continue;
     }
@@ -175,7 +172,7 @@ std::vector<Matrix> SphereTransform::Tables::run(const Matrix& coefficients, con
     sum_orders(sums, n_fields, field, kinds.first + static_cast<int>(place), place, values[place].col(field).data());
   };
   const Index n_all = kinds.count() * n_fields;
-  // Even a team of one makes system calls: small transforms stay out of OpenMP altogether.
+  // Even a team of one thread makes system calls: small transforms avoid OpenMP.
   if (!is_parallel(n_all * grid.n_points())) {
     const auto gathered = gathered_of_one();
     for (int m = 0; m <= azimuthal_order; ++m) sum_degrees(coefficients, kinds, m, gathered.get(), sums);

@@ -8,14 +8,14 @@
 namespace vehd {
 
 /// Fields with covariant derivatives on the unit sphere in the frame (e_θ, e_φ); each [n_points x n_fields].
-/// d22 = f_φφ/sin²θ + cot θ f_θ and so on: every entry is smooth at the poles and found without dividing by sin θ.
+/// d22 = f_φφ/sin²θ + cot θ f_θ and so on: every entry is smooth at the poles and computed without dividing by sin θ.
 struct SphereDerivatives {
   Matrix value, d1, d2, d11, d12, d22;
 };
 
 /// Spherical-harmonic transform between coefficients of degree ≤ order and a grid, as products of small matrices over
-/// one octant. Immutable after construction; every call may run concurrently. Copies share their tables, which live as
-/// long as the last of them. Cost O(order² n_theta) a field.
+/// one octant. Immutable after construction; calls are thread safe. Copies share their tables. Cost O(order² n_theta)
+/// per field.
 ///
 /// Accuracy: rounding; round trips to 2e-13 up to degree 64 (tests/sphere/transform_test.cpp)
 ///
@@ -24,13 +24,13 @@ class SphereTransform {
  public:
   /// @throws ShapeError if grid.order < order or grid.n_phi < 2 order + 2
   SphereTransform(int order, SphereGrid grid);
-  /// For fields whose Fourier modes in φ end at |m| = azimuthal_order: coefficients of larger |m| are neither read nor
-  /// found (they come out zero), and n_phi ≥ 2 azimuthal_order + 2 longitudes suffice.
+  /// For fields with Fourier modes |m| ≤ azimuthal_order in φ: coefficients of larger |m| are not read, and analysis
+  /// returns zeros for them; n_phi ≥ 2 azimuthal_order + 2 longitudes suffice.
   SphereTransform(int order, SphereGrid grid, int azimuthal_order);
 
   /// Degree p of the coefficients.
   [[nodiscard]] int order() const;
-  /// Largest |m| of the coefficients that it reads and finds.
+  /// Largest |m| of the coefficients that are read and computed.
   [[nodiscard]] int azimuthal_order() const;
   /// The grid of the values.
   [[nodiscard]] const SphereGrid& grid() const;
@@ -39,7 +39,7 @@ class SphereTransform {
   [[nodiscard]] Matrix synthesize(const Matrix& coefficients) const;
   /// Value and first derivatives, each [n_points x F], from coefficients [(order+1)² x F]; d11, d12, d22 stay empty.
   [[nodiscard]] SphereDerivatives synthesize_gradient(const Matrix& coefficients) const;
-  /// First derivatives alone, each [n_points x F], from coefficients [(order+1)² x F].
+  /// First derivatives only, each [n_points x F], from coefficients [(order+1)² x F].
   [[nodiscard]] SphereDerivatives synthesize_first_derivatives(const Matrix& coefficients) const;
   /// First and second derivatives without the value, each [n_points x F], from coefficients [(order+1)² x F].
   [[nodiscard]] SphereDerivatives synthesize_derivatives(const Matrix& coefficients) const;
