@@ -8,17 +8,17 @@
 #include "bie/stepping/thresholds.hpp"
 #include "bie/support/errors.hpp"
 
-// Degree and quadrature that follow the state.
+// Adaptation of degree and quadrature to the state.
 namespace vehd {
 
 namespace {
 
-/// Share of the target of x and V_m below which the degree falls: far enough that the degree does not rise again
-/// at once.
+/// The degree falls to one whose truncation error is below this share of its target, low enough that the degree does
+/// not rise again at once.
 constexpr double coarsening_truncation = 0.1;
-/// Share of the tolerance of the quadrature below which a coarser level, two digits worse, would still do.
+/// The quadrature is coarsened if its error is below this share of its tolerance: a coarser level loses two digits.
 constexpr double coarsening_quadrature = 1e-2;
-/// Steps between two attempts to save work: one that fails every time costs little of what a run does.
+/// Steps between two attempts to coarsen, so that attempts that always fail cost little of a run.
 constexpr std::int64_t coarsening_interval = 4;
 
 }  // namespace
@@ -37,12 +37,12 @@ void Evolution::coarsen_quadrature(std::size_t a) {
   change_space(a, order(a), level - 1);
 }
 
-/// Does the degree leave out little enough, or is there no higher one?
+/// Is the truncation error below its target, or is there no higher degree?
 bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
   return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target();
 }
 
-/// The least even degree for what is in the narrowest gap, of the two that it is between and of their images.
+/// The least even degree that resolves the smallest gap; 0 for vesicles that neither bound it nor are images of those.
 int Evolution::order_of_gap(const SmallestGap& gap, std::size_t a) const {
   const Exchange& exchange = setup_.symmetry.exchange;
   const std::size_t original = exchange.original(a);
@@ -55,7 +55,7 @@ int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
   return std::min(setup_.settings.order, std::max(enough, order(a) + thresholds::least_raise));
 }
 
-/// To where a state that it reaches is resolved. @throws ConvergenceError, and the vesicle stays as it is
+/// Raises the degree to one that resolves the reached state. @throws ConvergenceError; the vesicle is then unchanged
 void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough) {
   try {
     change_space(a, enough, state_.vesicles[a].quadrature_level);
@@ -65,9 +65,8 @@ void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough
   }
 }
 
-/// @param raised  vesicles whose degree has risen for this step; once is enough: what needs more gets it at the next
-/// one
-/// @returns whether any was too low
+/// @param raised  vesicles whose degree has risen for this step: once per step, and again in the next one if necessary
+/// @returns whether any degree was too low
 bool Evolution::raise_orders_for(const StepAttempt& attempt, std::vector<bool>& raised) {
   if (!adapts()) return false;
   const SmallestGap gap = find_smallest_gap(attempt.state, discretisation_, setup_.model.wall);
@@ -76,7 +75,7 @@ bool Evolution::raise_orders_for(const StepAttempt& attempt, std::vector<bool>& 
     if (raised[a] || setup_.symmetry.exchange.is_image(a) || order(a) >= setup_.settings.order) continue;
     const Resolution found = resolution(attempt.state, a);
     const int of_gap = order_of_gap(gap, a);
-    // A degree that does not hold the same surface on another grid leaves out too much as well.
+    // The degree is also too low if it does not represent the same surface on another grid.
     const bool enough = resolves(found, a) && attempt.arrival_shifts[a] <= truncation_target();
     if (enough && order(a) >= of_gap) continue;
     raise_order(a, found, std::max(enough ? 0 : raised_order(found, a), of_gap));
@@ -90,7 +89,7 @@ void Evolution::coarsen_order(std::size_t a) {
   if (!adapts() || order(a) <= lowest) return;
   const double target = coarsening_truncation * truncation_target();
   const int highest = order(a) - 2 * thresholds::least_raise;
-  // Of the degrees that would be the upper half then, another share can be seen than of those that are it now.
+  // The visible share is that of the upper half of the degrees, which are other degrees after truncation.
   const auto suffices = [&](int order) {
     State cut = state_;
     cut.vesicles[a] = resized(std::move(cut.vesicles[a]), order);
@@ -105,7 +104,7 @@ void Evolution::try_to_coarsen(Coarsening coarsening, std::size_t a) {
   try {
     (this->*coarsening)(a);
   } catch (const ConvergenceError&) {
-    // What cannot be had for less goes on as it is.
+    // If the solves fail, degree and quadrature stay as they are.
   }
 }
 

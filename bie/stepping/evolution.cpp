@@ -21,10 +21,10 @@ namespace vehd {
 
 namespace {
 
-/// Attempts that begin with the extrapolation of the last step, which may be what fails: it crosses no jump.
+/// Attempts after which a step no longer starts from the extrapolation: it can be what fails, as across a jump.
 constexpr int most_tries_from_past = 2;
-/// Nodes of the singular quadrature at each level, relative to those of the settings. Between two levels its error
-/// falls by two digits and more.
+/// Nodes of the singular quadrature at each level, relative to those of the settings. From level to level the error
+/// falls by at least two digits.
 constexpr std::array quadrature_levels = {1.0, 1.75, 2.6};
 
 constexpr std::int64_t highest_level = quadrature_levels.size() - 1;
@@ -33,7 +33,7 @@ ResolutionLevel level_of(int order, std::int64_t quadrature_level) {
   return {order, quadrature_levels.at(static_cast<std::size_t>(quadrature_level))};
 }
 
-/// The spaces that the vesicles of a state are in.
+/// Discretisation with the degrees and quadrature levels of a state.
 Discretisation discretisation_of(const EvolutionSetup& setup, const State& state) {
   std::vector<ResolutionLevel> levels;
   for (const VesicleState& vesicle : state.vesicles) {
@@ -42,7 +42,7 @@ Discretisation discretisation_of(const EvolutionSetup& setup, const State& state
   return {setup.settings, setup.symmetry, levels, setup.ranks};
 }
 
-/// Of the coarsest grid, over the radius.
+/// Spacing of the coarsest grid, over the radius.
 double grid_spacing(const State& state) {
   int lowest = order_of(state.vesicles.front().position.rows());
   for (const VesicleState& vesicle : state.vesicles) lowest = std::min(lowest, order_of(vesicle.position.rows()));
@@ -59,7 +59,7 @@ Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& sta
   std::vector<int> orders = with_images(setup_.symmetry.exchange, starting_orders(start));
   for (bool resolved = false; !resolved;) {
     start_at(orders, start);
-    // The area, which is the scale, and V_m are known only now.
+    // The area, which is the scale, and V_m are available only now.
     resolved = true;
     const SmallestGap gap = adapts() ? find_smallest_gap(state_, discretisation_, setup_.model.wall) : SmallestGap{};
     for (std::size_t a = 0; a < orders.size(); ++a) {
@@ -79,8 +79,8 @@ Evolution::Evolution(EvolutionSetup setup, State state, Instruments& instruments
       discretisation_(discretisation_of(setup_, with_images(setup_.symmetry.exchange, state))),
       state_(with_images(setup_.symmetry.exchange, std::move(state))) {}
 
-/// Growth under the present tension and under that after the next discontinuity of the forcing before `end`: a membrane
-/// that is elongated now may be compressed then, and no later degree restores what was truncated before.
+/// Growth of wrinkles under the present tension and after the next discontinuity of the forcing before `end`: an
+/// elongated membrane can be compressed then, and raising the degree later cannot restore what was truncated.
 void Evolution::expect_growth(double end) {
   if (!adapts() || !setup_.model.mobile) return;
   growth_ = growth_of_wrinkles(setup_.model, state_, evaluation_);
@@ -93,7 +93,7 @@ void Evolution::expect_growth(double end) {
                                             Limit::after, Shapes::of_previous);
     growth_ = std::max(growth_, growth_of_wrinkles(setup_.model, there, after));
   } catch (const ConvergenceError&) {
-    // Without a solution there the present growth has to do.
+    // Without a solution there the present growth is used.
   }
 }
 
@@ -114,7 +114,7 @@ Resolution Evolution::resolution(const State& state, std::size_t a) const {
     share = visible_share(space.vesicle(a).fine_transform(), vesicle);
   }
   if (!is_averaged(setup_.model) || evaluation_.vesicles.empty()) return {setup_.model, vesicle, share};
-  // That of the last shape that was solved for.
+  // V_m of the last shape for which the fields were solved.
   const Matrix& potential = evaluation_.fields.vesicles[a].potential_amplitude;
   return {setup_.model, vesicle, resize_order(potential, order_of(vesicle.position.rows())), share};
 }
@@ -131,7 +131,7 @@ void Evolution::start_at(const std::vector<int>& orders, const std::vector<Start
       initial_state(setup_.model, discretisation_, membranes, adapts() ? 0.0 : setup_.control.largest, instruments_);
 }
 
-/// That of the images as well. @throws ConvergenceError, and everything stays
+/// Changes the space of a vesicle and its images. @throws ConvergenceError; everything is then unchanged
 void Evolution::change_space(std::size_t a, int order, std::int64_t quadrature_level) {
   Discretisation discretisation = discretisation_;
   State state = state_;
@@ -142,7 +142,7 @@ void Evolution::change_space(std::size_t a, int order, std::int64_t quadrature_l
     state.vesicles[b].quadrature_level = quadrature_level;
   }
   Evaluation evaluation = evaluate(setup_.model, discretisation, state, instruments_);
-  // Less work that is not exact enough would have to be undone at the next step.
+  // A coarser space that is not accurate enough would have to be refined at the next step.
   const bool coarsens = order < this->order(a) || quadrature_level < state_.vesicles[a].quadrature_level;
   if (coarsens && evaluation.diagnostics.vesicles[a].quadrature_is_coarse) return;
   discretisation_ = std::move(discretisation);
@@ -157,7 +157,7 @@ void Evolution::replace(State state, Evaluation evaluation) {
 
 namespace {
 
-/// Finer quadrature where it is too coarse. @returns false where there is none
+/// Refines the quadrature where it is too coarse. @returns false if nothing was refined
 bool refine_quadrature(State& state, Discretisation& discretisation, const Evaluation& evaluation) {
   bool refined = false;
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
@@ -172,7 +172,7 @@ bool refine_quadrature(State& state, Discretisation& discretisation, const Evalu
 
 }  // namespace
 
-/// Makes this the state, with a quadrature that resolves it. @throws ConvergenceError, and the former state stays
+/// Makes this the state, with a sufficient quadrature. @throws ConvergenceError; the former state is then kept
 void Evolution::arrive(State state) {
   const bool has_moved = setup_.model.mobile || evaluation_.vesicles.empty();
   const SmallestGap gap = has_moved ? find_smallest_gap(state, discretisation_, setup_.model.wall) : gap_;
@@ -197,7 +197,7 @@ void Evolution::arrive(State state) {
   report_crossings(state, state.time, evaluation);
   if (before) report_crossings(state, state.time, *before);
   discretisation_ = std::move(discretisation);
-  // No polynomial goes on through a jump.
+  // The extrapolation is not valid across a jump.
   if (before) state = without_past(std::move(state));
   replace(std::move(state), std::move(evaluation));
   gap_ = gap;
@@ -233,8 +233,8 @@ double Evolution::reach(const EventTimes& events) const {
   return plan.reaches_event ? plan.event_time : state_.time + plan.dt;
 }
 
-/// @param former  attempts at the same step, whose work counts with this one
-/// @throws ConvergenceError where the step has become too small
+/// @param former  earlier attempts at the same step, whose work is added to that of this one
+/// @throws ConvergenceError if the step has become too small
 StepAttempt Evolution::attempted(const StepPlan& plan, const SnapshotTimes& snapshots,
                                  const StepAttempt& former) const {
   const StepControl& control = setup_.control;
@@ -252,7 +252,7 @@ StepAttempt Evolution::attempted(const StepPlan& plan, const SnapshotTimes& snap
   return attempt;
 }
 
-/// Judges an attempt; the end of an accepted one becomes the state.
+/// Accepts or rejects an attempt; the end of an accepted one becomes the state.
 /// @param raised  vesicles whose degree has risen for this step
 Evolution::Reaction Evolution::react(StepAttempt& attempt, const StepPlan& plan, std::vector<bool>& raised) {
   if (!attempt.accepted) return Reaction::repeat_smaller;
@@ -266,7 +266,7 @@ Evolution::Reaction Evolution::react(StepAttempt& attempt, const StepPlan& plan,
     passed_ = std::move(passed);
     return Reaction::accept;
   } catch (const ConvergenceError& error) {
-    // After a smaller step the solves may converge.
+    // With a smaller step the solves may converge.
     attempt.reject(error.what());
     return Reaction::repeat_smaller;
   }
@@ -293,7 +293,7 @@ StepAttempt Evolution::step(const EventTimes& events) {
   attempt.iterations_electric += arrival.iterations_electric;
   attempt.at_snapshot = (plan.reaches_event && plan.is_snapshot) ||
                         (adapts() && events.snapshots.is_due(state_.time, from, events.end_time));
-  // Where the forcing has just changed the spectrum has not followed yet.
+  // Just after a jump of the forcing the spectrum has not responded yet.
   if (!before_jump_) coarsen();
   return attempt;
 }

@@ -16,18 +16,18 @@
 
 namespace vehd {
 
-/// Degree below which a run with a tolerance does not go, unless it may not go that high.
+/// Lowest degree of a run with a tolerance, unless the highest degree of its settings is lower.
 constexpr int lowest_adaptive_order = 8;
 
-/// All inputs of a run but its start.
+/// Inputs of a run except its start.
 struct EvolutionSetup {
   Model model;
-  NumericalSettings settings;  ///< the degree is the highest that a run with a tolerance may take
+  NumericalSettings settings;  ///< the degree is the highest one of a run with a tolerance
   Symmetry symmetry;
   StepControl control;
-  Frame frame{};                     ///< of the state, in which messages name no place
-  std::vector<std::string> names{};  ///< of several vesicles in messages; empty: their numbers
-  Ranks ranks{};                     ///< that take the way together: all calls of an Evolution are collective
+  Frame frame{};                     ///< of the state; messages give places in the laboratory
+  std::vector<std::string> names{};  ///< of several vesicles in messages; if empty, their numbers
+  Ranks ranks{};                     ///< that compute together: all calls of an Evolution are collective
   /// How messages write a time.
   std::function<std::string(double)> time_text = [](double time) { return fmt::format("{:g}", time); };
 };
@@ -42,13 +42,13 @@ using KeepFormer = std::function<void(State&&, Evaluation&&)>;
 /// is too high falls. The truncation error of a compressed membrane is limited to the tolerance over the expected
 /// growth of wrinkles. With a tolerance the degree also rises with the inverse root of the gap between two vesicles.
 ///
-/// The singular quadrature is refined where the layers lose accuracy. No quadrature resolves parts of a membrane much
-/// closer to each other than the grid spacing: the run ends there, and where two vesicles come too near, see
+/// The singular quadrature is refined if the layers lose accuracy. No quadrature resolves parts of a membrane much
+/// closer to each other than the grid spacing: the run then ends. It also ends if two vesicles come too near, see
 /// require_gap. Vesicles that are images of others under the symmetry have the degree and the quadrature of their
 /// originals.
 ///
 /// A lower degree or coarser quadrature whose solves fail is not used. If the solves of a higher degree fail, the step
-/// is repeated with half the size, and the run ends where the size becomes too small.
+/// is repeated with half the size, and the run ends if the size becomes too small.
 ///
 /// Accuracy: with a tolerance, extents, energy, ∫λ dA and V_m of a field-driven prolate within three times the
 /// tolerance (tests/stepping/adaptive_evolution_test.cpp); with steps of fixed size that of deferred_correction
@@ -60,50 +60,50 @@ class Evolution {
   /// Continues from a state of such a run.
   Evolution(EvolutionSetup setup, State state, Instruments& instruments);
 
-  /// Solves everything at the start; to be called before the first step.
+  /// Solves all fields at the start; to be called before the first step.
   /// @throws ConvergenceError if a solve fails
   void evaluate_start();
 
   /// One accepted step towards the next of the given times; its state is state().
-  /// @throws ConvergenceError where no step is acceptable; the state is the last good one
+  /// @throws ConvergenceError if no step is acceptable; state() is then the last accepted one
   StepAttempt step(const EventTimes& events);
 
-  /// Where the next step towards these times ends at the latest.
+  /// Latest end of the next step towards these times.
   [[nodiscard]] double reach(const EventTimes& events) const;
-  /// Steps may be so many times as large as the largest of the setup; with a tolerance.
+  /// Multiplies the largest step size by this factor; only with a tolerance.
   void allow_steps(double times) {
     if (adapts()) setup_.control.largest *= times;
   }
 
-  /// Called before state and evaluation change, so that callers who view them without a copy can keep them alive. May
-  /// be empty.
+  /// Sets the function that is called before state and evaluation change, so that callers that view them without a copy
+  /// can keep them alive; it can be empty.
   void keep_former(KeepFormer keep) { keep_former_ = std::move(keep); }
 
   /// The last accepted state.
   [[nodiscard]] const State& state() const { return state_; }
   /// Fields and operators there.
   [[nodiscard]] const Evaluation& evaluation() const { return evaluation_; }
-  /// Where the forcing jumps at the time of the state and a step has led there: the evaluation just before the jump,
-  /// without operators. The other one is that just after it.
+  /// Evaluation just before a jump of the forcing, without operators, if the last step has ended at the jump;
+  /// evaluation() is then the one just after it.
   [[nodiscard]] const std::optional<Evaluation>& before_jump() const { return before_jump_; }
-  /// A moment within the last step at which a snapshot was due, with a tolerance: there the step's polynomial is
-  /// evaluated, without operators, and no step ends there.
+  /// A time within the last step at which a snapshot was due, in a run with a tolerance: the state comes from the
+  /// polynomial of the step, and its evaluation has no operators. No step ends there.
   struct Moment {
     State state;
     Evaluation evaluation;
     SmallestGap gap;
   };
-  /// The moments of the last step.
+  /// The snapshots within the last step.
   [[nodiscard]] const std::vector<Moment>& passed() const { return passed_; }
   /// Degree of a vesicle at present.
   [[nodiscard]] int order(std::size_t vesicle) const { return discretisation_.vesicle(vesicle).order(); }
-  /// Estimated share of what the degrees leave out, see Resolution; of the vesicle that loses most.
+  /// Largest estimated truncation error of all vesicles, see Resolution.
   [[nodiscard]] double truncation() const { return truncation(state_); }
   /// truncation() of another state of this run.
   [[nodiscard]] double truncation(const State& state) const;
-  /// Resolution of a vesicle in a state of this run; with a tolerance of its visible part.
+  /// Resolution of a vesicle in a state of this run; with a tolerance only of its visible part.
   [[nodiscard]] Resolution resolution(const State& state, std::size_t vesicle) const;
-  /// The two vesicles that are nearest to each other.
+  /// Smallest gap between two vesicles, or between a vesicle and the wall.
   [[nodiscard]] const SmallestGap& gap() const { return gap_; }
 
  private:
@@ -144,7 +144,7 @@ class Evolution {
   SmallestGap gap_;
   Evaluation evaluation_;
   double growth_ = 1.0;               // of wrinkles, see growth_of_wrinkles, with a tolerance
-  std::vector<StartMembrane> start_;  // until it is evaluated
+  std::vector<StartMembrane> start_;  // empty once it is evaluated
   std::optional<Evaluation> before_jump_;
   std::vector<Moment> passed_;
   KeepFormer keep_former_;

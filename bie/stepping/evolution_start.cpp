@@ -37,8 +37,8 @@ std::vector<int> Evolution::starting_orders(const std::vector<StartMembrane>& st
   return orders;
 }
 
-/// Starts anew at these degrees. Where that cannot be solved for, or is not needed, everything stays: a higher degree
-/// that cannot be had now may be asked for again by a step. @returns whether it has
+/// Restarts at these degrees. If the solves fail or the restart is not needed, everything is unchanged: a step can
+/// raise the degree later. @returns whether it has restarted
 bool Evolution::restart_at(const std::vector<int>& orders,
                            const std::function<bool(const Evaluation& former)>& is_needed) {
   const Discretisation discretisation = discretisation_;
@@ -57,8 +57,8 @@ bool Evolution::restart_at(const std::vector<int>& orders,
   return false;
 }
 
-/// Of a start whose charge, which moves V_m, or tension need more than its shape and V_m do: a spectrum that is cut too
-/// early says little of how many degrees more. An ellipsoid has degree 1. @returns whether any rose
+/// Raises the degrees of the start if charge or tension change with them: these can need more degrees than shape and
+/// V_m (an ellipsoid has degree 1), and a spectrum cut too early does not show how many. @returns whether any rose
 bool Evolution::raise_orders_for_fields() {
   std::vector<int> orders;
   bool raised = false;
@@ -76,7 +76,7 @@ bool Evolution::raise_orders_for_fields() {
          });
 }
 
-/// Of a start that is compressed: what is cut off grows, and no later degree brings it back. @returns whether any rose
+/// Raises the degrees of a compressed start, before its truncation error grows. @returns whether any rose
 bool Evolution::raise_orders_for_growth() {
   if (start_.empty()) return false;
   expect_growth(std::numeric_limits<double>::infinity());

@@ -21,7 +21,7 @@ namespace vehd {
 
 namespace {
 
-/// Errors of the layers up to this many times what truncation does to them are hidden by it.
+/// Errors of the layers up to this many times their truncation error are hidden by it.
 constexpr double above_truncation = 3.0;
 
 }  // namespace
@@ -53,7 +53,7 @@ std::array<double, 2> values_at_poles(const Vector3& direction, const SphereTran
   std::array<double, 2> values{};
   for (const std::size_t side : {0U, 1U}) {
     const Vector3 up = side == 0 ? direction : Vector3(-direction);
-    // Of any turn about the line that brings it upwards.
+    // Any rotation that turns the line upwards.
     const Matrix3 rotation = Eigen::Quaterniond::FromTwoVectors(up, Vector3::UnitZ()).toRotationMatrix();
     const auto pole =
         highest_on_line(rotation * point, fine.grid(), rotated(rotation, x), centred * rotation.transpose());
@@ -64,8 +64,8 @@ std::array<double, 2> values_at_poles(const Vector3& direction, const SphereTran
 
 namespace {
 
-/// The long axis of the gyration tensor in the x-z plane; of a body that is as long in all directions of another plane,
-/// the one where both planes meet. Zero where no direction of the x-z plane stands out.
+/// Long axis of the gyration tensor in the x-z plane; for a body that is equally long in all directions of another
+/// plane, the intersection of both planes. Zero if no direction of the x-z plane is longest.
 Vector3 long_axis_in_plane(const Matrix3& gyration) {
   constexpr double kRounding = 1e-9;
   const auto [squares, axes] = principal_axes(gyration);
@@ -81,7 +81,7 @@ double inclination(const Surface& s, const Frame& frame) {
   const Matrix centred = (s.position.rowwise() - centroid(s).transpose()) * frame.axes.transpose();
   const Vector3 axis = long_axis_in_plane(centred.transpose() * s.quadrature.asDiagonal() * centred);
   const double degrees = std::atan2(axis.z(), axis.x()) * 180.0 / std::numbers::pi;
-  // A vertical axis is +90 on either side of rounding.
+  // A vertical axis is +90, whatever its rounding.
   constexpr double kRounding = 1e-9;
   return degrees > 90.0 + kRounding ? degrees - 180.0 : degrees <= -90.0 + kRounding ? degrees + 180.0 : degrees;
 }
@@ -106,14 +106,14 @@ double spectrum_tail(const Matrix& position) {
 
 VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame, const SphereTransform& fine,
                                         const Surface& s, const SurfaceFields& membrane, const VesicleFields& fields) {
-  // About its mean, so that no digit depends on where the vesicle is.
+  // Relative to its mean, so that rounding does not depend on the position of the vesicle.
   const Vector3 mean = mean_vector(membrane.position);
   Matrix position = membrane.position * frame.axes.transpose();
   position.row(0).setZero();
   const SphereDerivatives x = fine.synthesize_hessian(position);
   const bool alternates = fields.potential_amplitude.size() > 0;
   if (membrane.transmembrane_potential.size() > 0 || alternates) {
-    // A transform that knows no more belongs to states that are axisymmetric about z.
+    // Transforms without all azimuthal orders belong to states that are axisymmetric about z.
     const bool axisymmetric = fine.azimuthal_order() < fine.order();
     const std::optional<SpherePoint> north =
         axisymmetric ? higher_pole(position)
@@ -139,7 +139,7 @@ VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame
 
 namespace {
 
-/// Where the membrane is, how it moves and how it is stretched.
+/// Position, motion and elongation of the membrane.
 void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTransform& fine, const Surface& s,
                  const VesicleFields& fields, VesicleDiagnostics& d) {
   const VolumeMoments moments = volume_moments(s);
@@ -163,7 +163,7 @@ void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTra
   d.shape_modes = shape_modes(s, moments.centroid, field);
 }
 
-/// V_m of an averaged field, by its magnitude.
+/// Magnitudes and phase of V_m in an averaged field.
 void add_amplitudes(const Vector3& field, const SphereTransform& fine, const Surface& s, const VesicleState& vesicle,
                     const Matrix& amplitude, VesicleDiagnostics& d) {
   const Vector3 mean = mean_vector(vesicle.position);
@@ -175,12 +175,12 @@ void add_amplitudes(const Vector3& field, const SphereTransform& fine, const Sur
   d.Vm_pole_plus = std::hypot(plus_real, plus_imaginary);
   d.Vm_pole_minus = std::hypot(minus_real, minus_imaginary);
   d.Vm_phase_deg = std::atan2(plus_imaginary, plus_real) * 180.0 / std::numbers::pi;
-  // The magnitude has kinks, its square has none.
+  // The magnitude has kinks, its square does not.
   const Vector square = fine.analyze(Vector(fine.synthesize(amplitude).rowwise().squaredNorm()));
   d.Vm_max = std::sqrt(maximum(fine.grid(), fine.synthesize_hessian(square), 0, square, 1.0));
 }
 
-/// How near it is to poration, or how far it has come.
+/// Load of the poration criterion, and progress of poration.
 void add_poration(const VesicleModel& model, const SphereTransform& fine, const Surface& s, const VesicleState& vesicle,
                   const VesicleSolution& solution, const VesicleFields& fields, VesicleDiagnostics& d) {
   if (model.criterion) {
@@ -188,7 +188,7 @@ void add_poration(const VesicleModel& model, const SphereTransform& fine, const 
     d.poration_load = d.load.load;
   }
   if (!model.reaction) return;
-  // Both rise with the state of the reaction, whose tops are smooth.
+  // Both increase with the state of the reaction, whose maximum is smooth.
   const double most = maximum(fine.grid(), fine.synthesize_hessian(vesicle.poration), 0, vesicle.poration, 1.0);
   d.conductance_max =
       vesicle.material.conductance.size() > 0
@@ -200,7 +200,7 @@ void add_poration(const VesicleModel& model, const SphereTransform& fine, const 
   d.poration_mean = measures.dot(s.quadrature) / d.area;
 }
 
-/// What all forces on the fluid add up to.
+/// Sum of all forces on the fluid.
 Vector3 net_force(const Membrane& membrane, const VesicleSolution& solution, const VesicleFields& fields) {
   const Surface& s = membrane.surface;
   Vector3 sum = Vector3::Zero();
@@ -227,7 +227,6 @@ void add_by_place(const VesicleModel& model, const Membrane& membrane, const Ves
 
 void check_operators(const MembraneSpace& space, double tolerance, const VesicleState& vesicle,
                      const Membrane& membrane, VesicleDiagnostics& d) {
-  // Truncation hides what is this close above it.
   const LayerCheck check = check_layers(membrane);
   d.quadrature_error = check.error;
   d.quadrature_is_coarse = check.error > tolerance && check.error > above_truncation * check.truncation;
@@ -262,7 +261,7 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
     const Vector tension = fine.synthesize(fields.tension);
     d.tension_integral = tension.dot(s.quadrature);
     d.tension_max = maximum(fine.grid(), fine.synthesize_hessian(fields.tension), 0, fields.tension, 1.0);
-    // The tension of a sphere is known up to its mean.
+    // The tension of a sphere is determined up to its mean.
     if (!solution.is_sphere) {
       d.wrinkle_degree = wrinkle_degree(flow, tension.minCoeff(), membrane.radius);
       d.wrinkling_rate = wrinkling_rate(flow, d.tension_integral / d.area, membrane.radius, fine.order());

@@ -17,7 +17,7 @@ ChargingMembrane charging_membrane(const VesicleTask& task, double time, Limit l
           task.vesicle.reaction.get()};
 }
 
-/// q and f_E. @returns f_E, values on the upsampled grid
+/// Stores q and f_E. @returns f_E, values on the upsampled grid
 Matrix take_traces(const VesicleTask& task, const ElectricParameters& electric, const ElectricTraces& traces) {
   task.fields.charge = task.membrane.fine.analyze(traces.charge);
   Matrix force = electric_force(electric.permittivity, task.membrane, traces, electric.permittivity_ratio);
@@ -25,7 +25,7 @@ Matrix take_traces(const VesicleTask& task, const ElectricParameters& electric, 
   return force;
 }
 
-/// Free charges of both faces.
+/// Stores the free charges of both faces.
 void take_charges(const VesicleTask& task) {
   const double capacitance = task.vesicle.charging.capacitance;
   const Vector& inner = task.state.transmembrane_potential;
@@ -114,7 +114,7 @@ void take_zeros(const VesicleTask& task) {
   task.fields.charge = Vector::Zero(n);
   task.fields.force_electric = Matrix::Zero(n, 3);
   if (is_averaged(task.model)) {
-    // V_m is no unknown there and has no rate.
+    // V_m is not an unknown here and has no rate.
     task.fields.potential_amplitude = task.fields.charge_amplitude = Matrix::Zero(n, 2);
     return;
   }

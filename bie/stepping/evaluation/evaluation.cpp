@@ -18,11 +18,10 @@ namespace vehd {
 
 namespace {
 
-/// What the layers between vesicles may lose, as a share of the tolerance of the quadrature: they never decide how
-/// exact a run is.
+/// Tolerance of the layers between vesicles over that of the quadrature: they never limit the accuracy of a run.
 constexpr double pair_share = 1e-3;
 
-/// Of one vesicle.
+/// Fields and rates of one vesicle.
 struct SolvedVesicle {
   VesicleFields fields;
   Unknowns rate;
@@ -33,8 +32,8 @@ void visit_members(Vesicle& vesicle, Visit& visit) {
   visit(vesicle.fields, vesicle.rate);
 }
 
-/// Gives all ranks what the owner of each vesicle has solved for, its fields and rates, and images what follows from
-/// their originals. Membranes, operators and what lives on a grid stay with their owner. Collective.
+/// Sends fields and rates of each vesicle from its owner to all ranks, and finds those of images from their originals.
+/// Membranes, operators and values on a grid stay on the owner. Collective.
 void gather_from_owners(const Partition& partition, const Exchange& exchange, SolvedFields& solved) {
   if (partition.ranks().is_alone() && !exchange.any()) return;
   std::vector<SolvedVesicle> all(solved.vesicles.size());
@@ -114,7 +113,7 @@ SolvedFields solve_all(const Model& model, const Discretisation& discretisation,
     solution.membrane = reuse ? previous->vesicles[a].membrane
                               : assembled(model, model.vesicles[a], discretisation.vesicle(a), state.vesicles[a],
                                           !solved.electric_inactive, partition.is_local(a), of_one);
-    // What truncation does to a sphere within a step makes it no other membrane.
+    // A sphere stays a sphere although truncation perturbs it within a step.
     solution.is_sphere =
         previous != nullptr
             ? previous->vesicles[a].is_sphere

@@ -15,38 +15,38 @@ namespace vehd {
 
 /// Data of one membrane for a step, besides its fields.
 struct VesicleSolution {
-  /// Surface and operators, these on the rank of the vesicle alone; null in an evaluation that no step starts from.
+  /// Surface and operators, these only on the rank of the vesicle; null in an evaluation that no step starts from.
   std::shared_ptr<const Membrane> membrane;
   bool is_sphere = false;  ///< see uniform_tension_is_free
-  Unknowns rate;           ///< dy/dt of material points, coefficients; a sphere moves as a rigid one
+  Unknowns rate;           ///< dy/dt of material points, coefficients; of a sphere rigid_sphere_velocity
   /// Force of all explicit effects on the fluid, values on the upsampled grid, [n_points x 3]; empty without them and
   /// on other ranks.
   Matrix force_of_effects;
-  RecycledSubspaces recycled;  ///< those of the state with what the tension solve adds
+  RecycledSubspaces recycled;  ///< those of the state, updated by the tension solve
 };
 
 /// A state with everything that its shapes determine: surfaces, operators, electric solution, forces, velocities.
-/// Immutable; independent of dt, so a rejected step is retried from it at no further assembly.
+/// Immutable; independent of dt, so a rejected step is retried from it without further assembly.
 struct SolvedFields {
   Fields fields;
   std::vector<VesicleSolution> vesicles;
-  /// Layers of the membranes on one another, empty where there is only one; null where no step starts.
+  /// Layers between the membranes, empty for a single one; null in an evaluation from which no step starts.
   std::shared_ptr<const Interaction> interaction;
   int iterations_flow = 0;         ///< of the tension solves
-  int iterations_electric = 0;     ///< of Eq. (12)
+  int iterations_electric = 0;     ///< of the electric solves
   bool electric_inactive = false;  ///< see electric_inactive()
 };
 
 /// Accuracy of the layers between membranes, from the settings for those of each.
 PairSettings pair_settings(const NumericalSettings& settings);
 
-/// Whose operators serve.
+/// Whether operators are assembled or reused.
 enum class Shapes { of_state, of_previous };
 
-/// Solves everything at a frozen state; collective, see Discretisation::shares.
-/// @param previous  of the same run, if any: its spheres stay spheres, and where shapes rest its operators serve again
-/// @param limit     which value counts where a waveform jumps at the time of the state
-/// @param shapes    whether they are known to be those of `previous`, so that its operators serve again
+/// Solves for all fields of a frozen state; collective, see Discretisation::partition.
+/// @param previous  of the same run, or null: its spheres stay spheres, and its operators are reused for frozen shapes
+/// @param limit     which value of a waveform applies if it jumps at the time of the state
+/// @param shapes    whether they are known to be those of `previous`, so that its operators are reused
 /// @throws ConvergenceError naming the solve that failed
 /// Accuracy: spectral; an inextensible sphere in linear flows has the exact velocity to 1e-12 and the exact tension to
 /// 1e-11 (tests/stepping/evaluation/evaluation_test.cpp)

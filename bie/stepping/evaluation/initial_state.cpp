@@ -14,7 +14,7 @@ namespace vehd {
 
 namespace {
 
-/// Before what is solved for.
+/// The given fields, before any solve.
 SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, const StartMembrane& start) {
   const Index n = start.position.rows();
   SurfaceFields fields;
@@ -35,7 +35,7 @@ SurfaceFields given_fields(const Model& model, const VesicleModel& vesicle, cons
   return fields;
 }
 
-/// V_m of all vesicles in their steady state; with displacement currents it stands for the charges of both faces.
+/// Sets V_m of all vesicles to its steady state; with displacement currents, also the charges of both faces.
 void find_steady_potentials(const Model& model, const Discretisation& discretisation, State& state,
                             Instruments& instruments) {
   const bool interacts = state.vesicles.size() > 1 || model.wall;

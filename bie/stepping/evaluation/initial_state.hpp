@@ -6,10 +6,10 @@
 
 namespace vehd {
 
-/// V_m at time 0; neither member counts without the electric model.
+/// V_m at time 0; ignored without the electric model.
 struct StartPotential {
   bool steady = false;  ///< that of the steady state
-  Vector given{};       ///< coefficients of any degree, where it is not steady; empty: zero
+  Vector given{};       ///< coefficients of any degree, unless steady; empty: zero
 };
 
 /// One membrane at time 0.
@@ -21,9 +21,9 @@ struct StartMembrane {
 
 /// State at time 0, every membrane in the degree of its position, with its own area, volume and area element as
 /// references: strain zero.
-/// @param discretisation  of the degrees that the positions are cut to or continued by zeros
-/// @throws ConvergenceError where a steady V_m is not found
-/// @throws InputError where some of several vesicles start with a steady V_m and others do not
+/// @param discretisation  of the degrees of the positions
+/// @throws ConvergenceError if a steady V_m is not found
+/// @throws InputError if some of several vesicles start with a steady V_m and others do not
 State initial_state(const Model& model, const Discretisation& discretisation,
                     const std::vector<StartMembrane>& membranes, double dt, Instruments& instruments);
 

@@ -16,7 +16,7 @@ LabFrameOutput::LabFrameOutput(const Frame& frame, const NumericalSettings& sett
 
 namespace {
 
-/// Centroid, its velocity, the net force, the place of a crossing and the rheology have the components of the frame.
+/// Transforms centroid, its velocity, net force, place of poration and rheology from the frame to the laboratory.
 void place(const Frame& frame, VesicleDiagnostics& d) {
   const auto turned = [&](double x, double y, double z) -> Vector3 { return frame.axes * Vector3(x, y, z); };
   const auto point = [&](double x, double y, double z) -> Vector3 { return frame.origin + turned(x, y, z); };

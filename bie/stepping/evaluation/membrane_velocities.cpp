@@ -15,7 +15,7 @@ Forcing no_forcing(const VesicleTask& task) {
   return {Matrix::Zero(task.membrane.surface.n_points(), 3), Matrix::Zero(task.state.position.rows(), 3)};
 }
 
-/// Adds the explicit effects, whose force is noted.
+/// Adds the explicit effects and stores their force.
 void add_effects(const VesicleTask& task, double time, Limit limit, Forcing& forcing) {
   const auto effects = explicit_effects(task.model, task.vesicle);
   if (effects.empty()) return;
@@ -45,7 +45,7 @@ void add_contact(const ContactParameters& contact, const std::vector<VesicleTask
   }
 }
 
-/// What the symmetry leaves of a velocity.
+/// Symmetric part of a velocity.
 Matrix symmetric(const Membrane& membrane, const Matrix& velocity) {
   return membrane.subspace.symmetry().any() ? membrane.subspace.symmetric_vector(velocity) : velocity;
 }

@@ -20,20 +20,20 @@ constexpr double contact_separation = 0.1;
 
 double largest_length(const Matrix& vectors) { return vectors.rowwise().norm().maxCoeff(); }
 
-/// Points from which the membrane looks for itself: the nodes and behind them the poles.
+/// Points whose distances are checked: the nodes followed by the poles.
 struct ProbePoints {
   Matrix position, normal;  ///< [n x 3]
   Vector spacing;
 };
 
-/// One of them as seen from another; lengths are squared and times that of the difference of the normals.
+/// One point as seen from another: squared lengths, times |u|², u the difference of the normals.
 struct View {
-  double along;    ///< of the way between them, what is along that difference
-  double allowed;  ///< a spacing, the wider one of theirs
-  double lack;     ///< ≤ 0 where they face each other and the way beside is no more than a spacing
+  double along;    ///< distance along u
+  double allowed;  ///< the larger of their spacings
+  double lack;     ///< ≤ 0 if they face each other and their distance across u is at most a spacing
 };
 
-/// ≤ 0 where they face each other.
+/// ≤ 0 if the points face each other.
 inline double turned(const double* nx, const double* ny, const double* nz, Index i, Index j) {
   constexpr double kFacing = -0.5;
   return nx[i] * nx[j] + ny[i] * ny[j] + nz[i] * nz[j] - kFacing;
@@ -83,7 +83,7 @@ LayerCheck check_layers(const Membrane& membrane) {
     const Matrix density = membrane.surface.area_element.asDiagonal() * membrane.surface.normal;
     const Matrix kept = fine.analyze(density);
     check.error = largest_length(fine.synthesize(membrane.layers.stokes_single.apply(kept))) / membrane.radius;
-    // S takes degree n of a weighted density to 1/(2n) of it over the radius.
+    // S maps degree n of a weighted density to 1/(2n) of it over the radius.
     const double lost = largest_length(density - fine.synthesize(kept));
     check.truncation = lost / (2.0 * fine.order() * membrane.radius * membrane.radius);
   }
@@ -97,7 +97,7 @@ LayerCheck check_layers(const Membrane& membrane) {
 }
 
 double separation(const SphereTransform& nodes, const Matrix& position, bool one_meridian_suffices) {
-  // As many at a time as it pays to ask whether any of them face one.
+  // Points are tested in groups of this size, of which those without any that faces the point are skipped.
   constexpr Index kAtATime = 16;
   const ProbePoints at = probe_points(nodes, position);
   const Index n = at.spacing.size();

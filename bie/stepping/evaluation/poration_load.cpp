@@ -12,7 +12,7 @@ namespace vehd {
 
 namespace {
 
-/// A load with the point of the parameter sphere where it is.
+/// Largest load, with its point of the parameter sphere.
 struct LoadAt {
   double load = 0.0;
   double rate = std::numeric_limits<double>::quiet_NaN();
@@ -20,7 +20,7 @@ struct LoadAt {
 };
 
 LoadAt of_potential(double threshold, const SphereTransform& fine, const Vector& potential, const Vector& rate) {
-  // On a sphere both poles are equal but for rounding.
+  // Both poles of a sphere are equal up to rounding.
   constexpr double kEqual = 1.0 + 1e-9;
   const SphereDerivatives nodes = fine.synthesize_hessian(potential);
   const Top above = top_of(fine.grid(), nodes, 0, potential, 1.0);
@@ -32,7 +32,7 @@ LoadAt of_potential(double threshold, const SphereTransform& fine, const Vector&
   return result;
 }
 
-/// @param varying  C_m where it differs from place to place, coefficients, or empty
+/// @param varying  C_m if it varies over the membrane, coefficients, or empty
 LoadAt of_tension(double threshold, double capacitance, const Vector& varying, const SphereTransform& fine,
                   const Vector& potential, const Vector& tension) {
   Vector sum = fine.synthesize(tension);
@@ -46,7 +46,7 @@ LoadAt of_tension(double threshold, double capacitance, const Vector& varying, c
   return {top.value / threshold, std::numeric_limits<double>::quiet_NaN(), top.point};
 }
 
-/// Share of the step at which the load passes 1; below 1 before it and not at its end.
+/// Share of the step at which the load passes 1, from below 1 at its start to at least 1 at its end.
 double crossing_share(const PorationLoad& from, const PorationLoad& to, double dt) {
   const double lacks = 1.0 - from.load, exceeds = to.load - 1.0;
   const double straight = lacks / (lacks + exceeds);
@@ -56,7 +56,7 @@ double crossing_share(const PorationLoad& from, const PorationLoad& to, double d
     return r * r * ((1.0 + 2.0 * s) * from.load + s * dt * from.rate) +
            s * s * ((1.0 + 2.0 * r) * to.load - r * dt * to.rate);
   };
-  // The cubic meets both ends, so halving finds a place where it passes.
+  // The cubic interpolates both ends, so bisection finds a crossing.
   double low = 0.0, high = 1.0;
   for (int i = 0; i < std::numeric_limits<double>::digits; ++i) {
     const double middle = 0.5 * (low + high);
@@ -83,7 +83,7 @@ PorationLoad poration_load(const PorationCriterion& criterion, double capacitanc
   const Vector& potential = transmembrane_potential(vesicle, fields);
   LoadAt most;
   if (criterion.potential && potential.size() > 0) {
-    // That of the state is one of charges where V_m follows from them.
+    // The rate of the state is that of a charge if V_m follows from free charges.
     const bool known = fields.potential.size() == 0;
     most =
         of_potential(*criterion.potential, fine, potential, known ? solution.rate.transmembrane_potential : Vector());

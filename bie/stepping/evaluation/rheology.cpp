@@ -35,7 +35,7 @@ Rheology together(const std::vector<Rheology>& vesicles) {
   Rheology all;
   all.gradient = vesicles.front().gradient;
   all.fluid_viscosity = vesicles.front().fluid_viscosity;
-  // From one of them, so that far from the origin nothing cancels.
+  // Relative to one of them, so that nothing cancels far from the origin.
   const Vector3 from = vesicles.front().centre;
   for (const Rheology& one : vesicles) {
     all.volume += one.volume;
@@ -99,15 +99,15 @@ void add_electric(const ElectricParameters& electric, const Membrane& membrane, 
   r.electric_power = electric.conductivity_out * electric.field.dot(dipole);
 }
 
-/// Of one matrix the symmetric part without trace.
+/// Symmetric part of a matrix, without its trace.
 Matrix3 deviator(const Matrix3& m) {
   const Matrix3 symmetric = 0.5 * (m + m.transpose());
   return symmetric - symmetric.trace() / 3.0 * Matrix3::Identity();
 }
 
-/// An inextensible sphere has no motion but a rigid one, whatever the tension that keeps its area elements for the
-/// moment: what its velocity lacks for that, the tension does. A disturbance u on a sphere has the stress
-/// −5μ ∫ ½(u nᵀ + n uᵀ) dA by the reciprocal theorem with the flow about a rigid sphere.
+/// An inextensible sphere moves only rigidly, although the tension found keeps its area elements only at this instant:
+/// the further tension that makes it rigid is added here. A disturbance u on a sphere has the stress −5μ ∫ ½(u nᵀ + n
+/// uᵀ) dA by the reciprocal theorem with the flow about a rigid sphere.
 void make_rigid(const Surface& s, const Matrix& velocity, Rheology& r) {
   r.tension += 5.0 * r.fluid_viscosity * deviator(integral_of_products(s, velocity, s.normal)) + r.viscosity;
   r.viscosity.setZero();
@@ -135,7 +135,7 @@ Rheology find_rheology(const Model& model, const VesicleModel& vesicle, double t
   };
   if (fields.force_bending.size() > 0) add_force(membrane.fine.synthesize(fields.force_bending), r.bending, nullptr);
   if (fields.force_tension.size() > 0) add_force(membrane.fine.synthesize(fields.force_tension), r.tension, nullptr);
-  // On the fluid it is −f_E.
+  // The force on the fluid is −f_E.
   if (fields.force_electric.size() > 0) {
     add_force(-membrane.fine.synthesize(fields.force_electric), r.electric, &r.electric_force);
   }

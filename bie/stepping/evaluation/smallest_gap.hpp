@@ -13,19 +13,19 @@ namespace vehd {
 
 /// Where two vesicles, or a vesicle and a wall, are nearest to each other.
 struct SmallestGap {
-  double distance = std::numeric_limits<double>::infinity();  ///< infinite of a single vesicle in unbounded fluid
+  double distance = std::numeric_limits<double>::infinity();  ///< infinite for a single vesicle in unbounded fluid
   double relative = std::numeric_limits<double>::infinity();  ///< over the smaller of both radii √(A/4π)
   double radius = 0.0;                                        ///< the smaller one
-  std::size_t first = 0, second = 0;                          ///< their numbers; equal beside a wall
-  Vector3 place = Vector3::Zero();                            ///< the middle between both
+  std::size_t first = 0, second = 0;                          ///< indices of both; equal for a gap to a wall
+  Vector3 place = Vector3::Zero();                            ///< midpoint of the gap
   bool to_wall = false;                                       ///< the second is a wall
 
-  /// Degree that densities in this gap ask for, about 4/√(gap over radius), the gap to a wall being half of that to
-  /// the image; 0 of a single vesicle in unbounded fluid.
+  /// Degree that densities in this gap require, about 4/√(gap over radius), the gap to a wall being half of that to
+  /// the image; 0 for a single vesicle in unbounded fluid.
   [[nodiscard]] double degree() const;
 };
 
-/// The smallest gap between the vesicles of a state, or of one and the wall beside them.
+/// The smallest gap between the vesicles of a state, or between one and the wall.
 /// @param discretisation  of the state
 /// Accuracy: that of nearest_points and nearest_to_wall
 SmallestGap find_smallest_gap(const State& state, const Discretisation& discretisation,
@@ -36,8 +36,8 @@ SmallestGap find_smallest_gap(const State& state, const Discretisation& discreti
 /// @throws ConvergenceError naming both, the place and the distance
 /// @param before   at the start of the step; infinite at the start of a run
 /// @param spacing  of the grids, over the radius
-/// @param frame    of the state: places are told in the laboratory
-/// @param names    of the vesicles, or none
+/// @param frame    of the state: messages give places in the laboratory
+/// @param names    of the vesicles, or empty
 void require_gap(const SmallestGap& gap, const SmallestGap& before, double spacing, const Frame& frame,
                  const std::vector<std::string>& names);
 

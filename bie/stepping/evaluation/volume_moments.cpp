@@ -30,7 +30,7 @@ double VolumeMoments::aspect_ratio_along(const Vector3& direction) const {
 }
 
 VolumeMoments volume_moments(const Surface& s) {
-  // About the mean of the surface, so that far from the origin nothing cancels.
+  // Relative to the mean of the surface, so that nothing cancels far from the origin.
   const Vector3 mean = centroid(s);
   const Matrix y = s.position.rowwise() - mean.transpose();
   // y and y yᵀ are homogeneous of degree 1 and 2: their volume integrals are fluxes of y f over 4 and 5.

@@ -44,14 +44,14 @@ double growth_of_wrinkles(const Model& model, const State& state, const SolvedFi
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     const VesicleState& vesicle = state.vesicles[a];
     const VesicleFields& fields = solved.fields.vesicles[a];
-    // A sphere leaves its tension open.
+    // The tension of a sphere is undetermined.
     if (!model.mobile || fields.tension.size() == 0 || solved.vesicles[a].is_sphere) continue;
     const Membrane& membrane = *solved.vesicles[a].membrane;
     const double tension = mean_tension(membrane.fine, membrane.surface, fields.tension);
     const double radius = vesicle.radius();
     const double rate =
         wrinkling_rate(flow_parameters(model, model.vesicles[a]), tension, radius, order_of(vesicle.position.rows()));
-    // Degree 0 of the velocity changes nothing of a membrane.
+    // Degree 0 of the velocity only translates the membrane.
     Matrix moving = fields.velocity;
     moving.row(0).setZero();
     const double speed =

@@ -20,25 +20,25 @@ namespace vehd {
 
 namespace {
 
-/// A pass that converges reduces its residual by the square or by its own tolerance: ten are a tenth of a digit each.
+/// Largest number of passes. A pass that converges squares its residual or reduces it to its own tolerance.
 constexpr int most_passes = 24;
-/// Relative tolerance of a pass. Every pass starts from the full residual, so it needs no more digits than its
-/// linearisation is worth (a step changes the shape by about a hundredth), nor more than are left to gain. Measured.
+/// Bounds of the relative tolerance of a pass. Every pass starts from the full residual, so it needs no more digits
+/// than its linearisation has (a step changes the shape by about a hundredth), nor more than are missing. Measured.
 constexpr double finest_pass = 1e-2;
 constexpr double loosest_pass = 0.3;
-/// A pass that leaves more than this of its residual does not gain.
+/// A pass that leaves more than this of its residual stagnates.
 constexpr double stagnation_ratio = 0.9;
-/// So many may happen in a step that arrives all the same. After each further one passes are solved with this share of
-/// their tolerance, and not below the sharpest: the norm of the solve counts Eq. (28) at degree 64 a few thousandths of
-/// what it does at degree 1.
+/// Stagnating passes that a step can have and still converge. Each further one multiplies the tolerance of passes by
+/// this factor, down to the tightest: the norm of the solve weighs Eq. (28) at degree 64 a few thousandths of what it
+/// does at degree 1.
 constexpr int stagnating_passes = 4;
 constexpr double sharper_pass = 0.1;
 constexpr double sharpest_pass = 1e-5;
-/// Changes of H smaller than this, relative to H, are those of a shape at rest: Eq. (28) to five digits of them is
-/// below what the constraint lets pass.
+/// Changes of H smaller than this, relative to H, are those of a shape at rest: five digits of them in Eq. (28) are
+/// below the tolerance of the constraint.
 constexpr double curvature_floor = 1e-6;
-/// Largest relative change of an area element that a motion may make before it is corrected: beyond a half the
-/// linearised constraint can turn an element over.
+/// Largest relative change of an area element by a motion before it is corrected: beyond a half the linearised
+/// constraint can turn an element over.
 constexpr double largest_stretch = 0.5;
 
 double pass_tolerance(double largest_excess) {
@@ -72,16 +72,16 @@ Measure measure(const SphereTransform& fine, const Matrix& position) {
   return result;
 }
 
-/// The area of a membrane with undulations, which follows from what a motion does to the mean tension.
+/// The area of a membrane with undulations, which follows from the change of the mean tension in a motion.
 class FreeArea {
  public:
   /// @param area  at the beginning of the motion
   FreeArea(const Undulations& undulations, double area) : law_(undulations), tension_(law_.tension(area)) {}
 
-  /// The area that the mean tension so far asks for.
+  /// The area at the current mean tension.
   [[nodiscard]] double wanted() const { return law_.area(tension_); }
 
-  /// The uniform tension to add so that the area is what the tension then asks for.
+  /// Uniform tension to add so that area and mean tension satisfy the law.
   /// @param area      without it
   /// @param response  change of the area for a uniform tension of 1, negative
   double raise_tension(double area, double response) {
@@ -103,10 +103,10 @@ class FreeArea {
   double tension_;
 };
 
-/// What a motion has not reached yet.
+/// Remaining errors of a motion.
 struct Errors {
   double area = 0.0, volume = 0.0;  ///< relative, signed
-  double strain = 0.0;              ///< of the degrees that a tension can answer
+  double strain = 0.0;              ///< of the degrees that a tension can correct
   double curvature = 0.0;           ///< of Eq. (28), relative to the step's own change of H
 
   [[nodiscard]] double of_constraint() const { return std::max(std::abs(volume), std::abs(area)); }
@@ -136,7 +136,7 @@ class Iteration {
     if (bending()) mean_curvature_ = fine().analyze(context.membrane.surface.mean_curvature).norm();
   }
 
-  /// Moves the material points by the velocity so far. @throws ConvergenceError where that tears the membrane
+  /// Moves the material points by the velocity so far. @throws ConvergenceError if that tears the membrane
   void move() {
     const Membrane& membrane = context_.membrane;
     const SphereDerivatives u =
@@ -155,8 +155,8 @@ class Iteration {
         throw ConvergenceError(fmt::format("area elements change by factors {:.2g} to {:.2g} in one step",
                                            stretch.minCoeff(), stretch.maxCoeff()));
       }
-      // What bending has not answered yet, a stiff membrane takes back in the next pass: until then the constraint is
-      // the linear one of the start.
+      // Bending has not responded to this velocity yet, and a stiff membrane undoes the stretch in the next pass: until
+      // then the constraint is linearised about the start.
       const Vector growth = dt_ * surface_divergence(membrane.surface, u);
       stretch = 1.0 + growth.array();
       after_.area = area_ + membrane.surface.quadrature.dot(growth);
@@ -168,12 +168,12 @@ class Iteration {
     errors_.volume = (after_.volume + arrival_volume_) / context_.state.reference_volume - 1.0;
     errors_.area = inextensible() ? (after_.area + arrival_area_) / wanted_area() - 1.0 : 0.0;
     if (pass_ == 0) motion_.raw_area = errors_.area;
-    // Only degrees up to p can be answered by a tension of degree p, and degree 0 is the area's own.
+    // A tension of degree p corrects only degrees up to p, and degree 0 is the error of the area.
     errors_.strain = inextensible() ? weighted_strain_.tail(weighted_strain_.size() - 1).norm() / area_ : 0.0;
   }
 
-  /// Does the motion hold what it has to, on arrival as well? The first pass is the step itself, however small its
-  /// residual.
+  /// Are the constraints met, also on arrival? At least one pass is made, however small its residual, because it is the
+  /// step itself.
   bool arrives(const Arrival& arrival) {
     const NumericalSettings& settings = context_.settings;
     const bool is_there = pass_ > 0 && !is_torn_ && errors_.of_constraint() <= settings.constraint_tolerance &&
@@ -193,23 +193,23 @@ class Iteration {
     return errors_.of_constraint() <= settings.constraint_tolerance;
   }
 
-  /// One pass: (h, λ) and the uniform normal velocity that answer what is left. @throws ConvergenceError
+  /// One pass: (h, λ) and a uniform normal velocity that correct the remaining errors. @throws ConvergenceError
   void solve(FlowSystem& flow, int& iterations) {
     const double push = -errors_.volume * context_.state.reference_volume / (area_ * dt_);
     if (inextensible()) {
-      // The area as a whole answers for itself, free of what truncation does to the strain field.
+      // Degree 0 is the error of the area itself, without the truncation of the strain field.
       weighted_strain_[0] = errors_.area * wanted_area() / std::sqrt(4.0 * std::numbers::pi);
       rhs_.tension = -weighted_strain_ / dt_ - push * normal_divergence_;
     }
-    // The norm of the solve weighs curvature and strain together, those of high degrees least. With a loose
-    // tolerance the residual of one can hide behind the rounding of the other, that of the area elements.
+    // The norm of the solve weighs curvature and strain together, high degrees least. With a loose tolerance the
+    // residual of one can be hidden by rounding in the other, that of the area elements.
     if (excess() > stagnation_ratio * excess_before_) ++stagnating_;
     excess_before_ = excess();
     const double sharpening = std::pow(sharper_pass, std::max(0, stagnating_ - stagnating_passes));
     const double tolerance = std::max(sharpening * pass_tolerance(excess()), sharpest_pass);
     const FlowSystem::Solution increment = flow.solve({flow.equations().front().rows(rhs_)}, tolerance);
     iterations += increment.report.iterations;
-    // What a pass leaves the next one answers for, as long as it gains.
+    // The next pass corrects what this one leaves, as long as the residual falls.
     if (!increment.report.converged() && !(increment.report.residual < stagnation_ratio)) {
       throw ConvergenceError(fmt::format("velocity solve, Eq. (27): residual {:.1e} after {} iterations",
                                          increment.report.residual, increment.report.iterations));
@@ -249,7 +249,7 @@ class Iteration {
   }
   [[nodiscard]] bool bending() const { return context_.parameters.bending.has_value(); }
   [[nodiscard]] bool inextensible() const { return context_.parameters.inextensible; }
-  /// Over what is accepted, the largest.
+  /// Largest error over its tolerance.
   [[nodiscard]] double excess() const {
     const NumericalSettings& settings = context_.settings;
     return std::max({std::abs(errors_.volume) / settings.constraint_tolerance,
@@ -263,27 +263,27 @@ class Iteration {
   const SphereTransform& curvature_transform_;
   double area_;
   Vector stretch_before_;
-  Vector to_take_back_;                // of the strain before
+  Vector to_take_back_;                // part of the former strain
   Matrix normal_;                      // velocity of the volume correction, for unit amplitude
   Vector normal_divergence_;           // weighted
   std::optional<FreeArea> free_area_;  // with undulations
   double mean_curvature_ = 0.0;
   double curvature_scale_ = 0.0;
   int pass_ = 0;
-  bool is_torn_ = false;  // by the velocity so far, which bending is still to answer
+  bool is_torn_ = false;  // by the velocity so far, to which bending has not responded
   double excess_before_ = std::numeric_limits<double>::infinity();
   int stagnating_ = 0;
   Matrix velocity_;
   Vector curvature_;  // h of Eq. (28), accumulated
   Measure after_;
   Vector strain_;
-  Vector weighted_strain_;  // of what this step answers for
+  Vector weighted_strain_;  // of the strain that this step corrects
   FlowScalars rhs_;
   Errors errors_;
-  // What arrival adds to area and volume, known from the last one.
+  // Change of area and volume by the last arrival.
   double arrival_area_ = 0.0;
   double arrival_volume_ = 0.0;
-  Matrix before_arrival_;  // of the material, without that
+  Matrix before_arrival_;  // position of the material without that correction
   Motion motion_;
 };
 

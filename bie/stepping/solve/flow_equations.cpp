@@ -15,8 +15,8 @@ namespace vehd {
 
 namespace {
 
-/// Strain counts in the norm of the joint system by this share of what the change of curvature does: the tolerance of
-/// the one over that of the other (NumericalSettings). Measured.
+/// Weight of strain relative to the change of curvature in the norm of the joint system: the ratio of their tolerances
+/// (NumericalSettings). Measured.
 constexpr double strain_share = 0.1;
 
 }  // namespace
@@ -28,8 +28,8 @@ bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& m
 
 namespace {
 
-/// Degrees of c and u·n are those of the parameter sphere, so on points that have flowed degrees from 2 on have a part
-/// of degree 1 in space. Without the mean they neither hold a translation nor exert a net force.
+/// c and u·n are expanded on the parameter sphere, so on points that have flowed degrees from 2 on have a part of
+/// degree 1 in space. Without the mean they contain no translation and exert no net force.
 Matrix without_net(const Membrane& membrane, const Matrix& values) {
   return values.rowwise() - surface_mean(membrane.surface, values).transpose();
 }
@@ -60,13 +60,13 @@ FlowEquations::FlowEquations(const FlowMembrane& one, FlowOptions options) : one
   find_sphere_inverse();
 }
 
-/// Is the entry one of h, or of c? The others are zero.
+/// Does the entry belong to h, or to c? Other entries are zero.
 bool FlowEquations::is_shape(Index entry) const {
   if (bends()) return entry < n_coefficients(curvature_transform().order());
   return degree_of(entry) >= 2 && degree_of(entry) < membrane().fine.order();
 }
 
-/// Unknowns (shape, λ) from both sides on a sphere.
+/// Maps both sides of one degree on a sphere to the unknowns (shape, λ).
 Eigen::Matrix2d FlowEquations::sphere_inverse(int degree) const {
   const Vector& area = membrane().surface.quadrature;
   const Vector& held = options_.held_tension;
@@ -102,14 +102,14 @@ void FlowEquations::find_inverse(const TensionGrid& grid) {
   of_membrane_.emplace(one_, grid, options_.entries, mean_response(one_));
 }
 
-/// Coefficients of which these can differ from zero, up to so many.
+/// The first `count` coefficients of a scalar with these entries; all others are zero.
 Vector FlowEquations::spread(const Eigen::Ref<const Vector>& of_entries, Index count) const {
   Vector scalar = Vector::Zero(std::max(count, options_.entries.back() + 1));
   scalar(options_.entries) = of_entries;
   return scalar.head(count);
 }
 
-/// Changes the uniform part.
+/// Sets the mean by changing the uniform part.
 void FlowEquations::with_mean(double mean, Vector& tension) const {
   tension[0] = 0.0;
   tension[0] = coefficient_of_one * (mean - mean_tension(membrane().fine, membrane().surface, tension));
@@ -185,7 +185,7 @@ Vector FlowEquations::left_side(const Matrix& velocity, const Vector& v) const {
   if (has_tension()) sides.tension = weighted_divergence(membrane(), u);
   Vector result = rows(sides);
   if (area_is_free()) result.tail(n()) += tension_scale_ * v[n_shape()] * of_dilation_;
-  // What cannot differ from zero has equations that keep it zero.
+  // Entries that must be zero have equations that keep them zero.
   for (Index i = 0; i < n(); ++i) {
     const Index entry = options_.entries[static_cast<std::size_t>(i)];
     if (has_shape() && !is_shape(entry)) result[i] = shape_scale_ * v[i];

@@ -11,73 +11,73 @@
 namespace vehd {
 
 /// Two scalars on one membrane, coefficients; one that does not exist is empty. As unknowns: `shape` is the change h of
-/// the mean curvature, Eq. (28), or where the membrane is a sphere the normal force c that holds it in shape; `tension`
-/// is λ. As sides of their equations: h − dt Hop(u) or u·n, and J ∇_γ·u.
+/// the mean curvature, Eq. (28), or on a sphere the normal force c that holds it in shape; `tension` is λ. As sides of
+/// their equations: h − dt Hop(u) or u·n, and J ∇_γ·u.
 struct FlowScalars {
   Vector shape;
   Vector tension;
 };
 
-/// Which forces are unknown.
+/// Selection of the unknown forces.
 struct FlowOptions {
-  /// Of the step that treats bending implicitly. 0: tension alone is unknown, and bending is among the given forces.
+  /// Step size of the implicit bending; 0: only tension is unknown, and bending is a given force.
   double dt = 0.0;
-  /// λ_0 on the upsampled grid, on which h acts with the force 2 λ_0 h n; empty: zero. The paper's scheme leaves it
-  /// out; deferred corrections converge the better the more of the true response is implicit.
+  /// λ_0 on the upsampled grid, with which h exerts the force 2 λ_0 h n; empty: zero. The paper's scheme omits it;
+  /// deferred corrections converge the better, the more of the true response is implicit.
   Vector held_tension{};
-  /// Between a degree above p and the upsampled grid; empty: h has degree p. Positions of degree p have normal parts,
-  /// and H, of the next degree. Bending does not act on that, but λ_0 does, and it has to be implicit as well: at large
-  /// λ_0 dt/(μR) equilibria are unstable without it.
+  /// Transform between a degree above p and the upsampled grid; empty: h has degree p. Positions of degree p have
+  /// normal parts, and H, of the next degree. Bending does not act there, but λ_0 does, and must be implicit as well:
+  /// at large λ_0 dt/(μR) equilibria are unstable otherwise.
   std::optional<SphereTransform> curvature_transform{};
   /// Coefficients of h and, up to degree p, of λ that can differ from zero, ascending; empty: those of the membrane's
   /// symmetry.
   std::vector<Index> entries{};
   bool is_sphere = false;
-  bool holds_shape = false;  ///< a sphere, by the force c n
+  bool holds_shape = false;  ///< of a sphere, by the force c n
 };
 
-/// True where a uniform tension moves nothing, that is, on a sphere: there the constraint does not determine it, and
-/// the area cannot change at constant volume. With undulations the area determines it.
-/// @param membrane  a sphere up to rounding, or not
+/// Whether a uniform tension moves nothing, as on a sphere: the constraint then does not determine it, and the area
+/// cannot change at constant volume. With undulations the area determines it.
+/// @param membrane  counts as a sphere up to thresholds::sphere_variation
 bool uniform_tension_is_free(const FlowParameters& parameters, const Membrane& membrane);
 
 /// The linear equations for the unknown forces on one frozen membrane, Eqs. (27) and (28): with
 ///   f = F h + 2 λ_0 h n + T λ  (F of Eq. (28a), T of Eq. (28c)),
 /// and u the velocity under f,
 ///   h − dt Hop(u) = …,   J ∇_γ·u = ….
-/// Scalars take the place of the three components of x^{n+1}, which (27a) needs only through H^{n+1}.
+/// Scalars replace the three components of x^{n+1}, which (27a) needs only through H^{n+1}.
 ///
-/// - With undulations the area is free, J (∇_γ·u − e) = …: the uniform dilation e is unknown in place of the first
-///   coefficient of λ, and λ has the mean 0.
-/// - A sphere is held in shape by c n less its mean, c of degrees 2 … p − 1, such that u·n = …. Of the highest degree
-///   truncation leaves a single velocity, which λ rules alone. The mean of λ stays zero.
+/// - With undulations the area is free, J (∇_γ·u − e) = …: the uniform dilation e replaces the first coefficient of λ
+///   as unknown, and λ has the mean 0.
+/// - A sphere is held in shape by c n minus its mean, c of degrees 2 … p − 1, so that u·n = …. At the highest degree
+///   truncation leaves a single velocity, which λ determines. The mean of λ stays zero.
 ///
-/// Vectors of unknowns have each scalar over its own scale, so that a norm adds like to like: one step of size dt bends
-/// a membrane of radius R by h R and strains it by λ dt/(μR), or by λ R²/κ_B where bending answers within the step.
+/// In vectors of unknowns each scalar is divided by its scale, to be comparable in a norm: one step of size dt bends a
+/// membrane of radius R by h R and strains it by λ dt/(μR), or by λ R²/κ_B if bending responds within the step.
 /// Source: paper Eqs. (5), (27), (28); preconditioned with the spectrum of the sphere as Veerapaneni et al. 2011
 class FlowEquations {
  public:
   /// @param one  its membrane must outlive the equations
   FlowEquations(const FlowMembrane& one, FlowOptions options);
-  /// From now on approximate_inverse is that of the membrane's own response, where λ is the only unknown.
+  /// Makes approximate_inverse that of the membrane's own response, if λ is the only unknown.
   void find_inverse(const TensionGrid& grid);
 
   [[nodiscard]] const Membrane& membrane() const { return one_.membrane; }
   [[nodiscard]] Index size() const { return n_shape() + n_tension(); }
-  /// Between the degree of h and the upsampled grid: p where there is no λ_0 that more of it could act on.
+  /// Transform between the degree of h and the upsampled grid; the degree is p without λ_0.
   [[nodiscard]] const SphereTransform& curvature_transform() const {
     return options_.curvature_transform && options_.held_tension.size() > 0 ? *options_.curvature_transform
                                                                             : membrane().fine;
   }
 
-  /// Scalars, coefficients, of a vector of unknowns, [size()].
+  /// Coefficients of the scalars of a vector of unknowns, [size()].
   [[nodiscard]] FlowScalars unknowns(const Vector& v) const;
   /// The vector of unknowns, [size()], of scalars; the inverse of unknowns().
   [[nodiscard]] Vector over_scales(const FlowScalars& unknowns) const;
-  /// λ to start from, with the mean that is known with undulations; c is zero.
+  /// Initial guess of λ, with its known mean if there are undulations; c is zero.
   /// @param tension  λ, coefficients [n_coefficients], or empty
   [[nodiscard]] FlowScalars guess(const Vector& tension) const;
-  /// A vector of unknowns, [size()], with the uniform part of λ left out.
+  /// A vector of unknowns, [size()], without the uniform part of λ.
   [[nodiscard]] Vector without_mean(Vector unknowns) const;
 
   /// f on the fluid per area, values on the upsampled grid, [n_points x 3]; empty without unknowns.
@@ -94,10 +94,10 @@ class FlowEquations {
   /// dt.
   [[nodiscard]] Vector approximate_inverse(const Vector& rows) const;
 
-  /// Rows, [size()], of an image of this membrane.
+  /// Rows, [size()], of an image of this membrane, from those of this membrane.
   [[nodiscard]] Vector image(const ImageOfFields& image, const Vector& rows) const;
 
-  /// (h, λ) ↦ (Hop(u), J ∇_γ·u) of RecycledSubspaces as unknowns ↦ left sides.
+  /// Converts (h, λ) ↦ (Hop(u), J ∇_γ·u) of RecycledSubspaces to unknowns ↦ left sides.
   [[nodiscard]] RecycledSubspace in_system(const RecycledSubspace& recycled) const;
   /// The inverse of in_system.
   [[nodiscard]] RecycledSubspace in_scalars(const RecycledSubspace& recycled) const;
@@ -121,8 +121,8 @@ class FlowEquations {
   FlowOptions options_;
   double shape_scale_ = 1.0;
   double tension_scale_ = 1.0;
-  Vector of_dilation_;  ///< −J/(μR), rows of λ, where the area is free; else empty
-  Matrix inverse_;      ///< of the sphere: row by row for each entry its 2 x 2 block, [n x 4]
+  Vector of_dilation_;  ///< −J/(μR), rows of λ, if the area is free; else empty
+  Matrix inverse_;      ///< of the sphere: the 2 x 2 block of each entry, by rows, [n x 4]
   std::optional<TensionInverse> of_membrane_;
 };
 

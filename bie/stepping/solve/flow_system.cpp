@@ -12,10 +12,10 @@ namespace vehd {
 
 namespace {
 
-/// Iterations of one solve. Without a preconditioner of the right shape (1 : 1 : 5, degree 64) sixty are needed.
+/// Most iterations of one solve. Shapes unlike the preconditioner's sphere (1 : 1 : 5, degree 64) need sixty.
 constexpr int most_flow_iterations = 120;
-/// Sizes whose systems a step keeps: twice as many as the nodes of a scheme ask for. Moments within a step have sizes
-/// of their own that never come again.
+/// Number of systems that a step keeps, one for each step size: twice as many as a scheme needs for its nodes. Times
+/// within a step have sizes of their own that do not recur.
 constexpr std::size_t most_flow_systems = 12;
 
 StackedEntries stacked_rows(const std::vector<FlowEquations>& equations) {
@@ -30,7 +30,7 @@ StackedEntries stacked_velocities(const std::vector<FlowEquations>& equations, c
   return result;
 }
 
-/// Empty ones unless all are of these equations, with the same number of columns.
+/// The recycled subspaces; all are empty unless each fits its equations and all have the same number of columns.
 std::vector<RecycledSubspace> suitable(const std::vector<FlowEquations>& equations,
                                        std::vector<RecycledSubspace> recycled) {
   const auto fits = [&](std::size_t a) {
@@ -54,7 +54,7 @@ FlowSystem::FlowSystem(std::vector<FlowEquations> equations, MembraneFlow& flow,
       solver_([this](const Vector& v) { return map(v); }, [this](const Vector& r) { return preconditioned(r); },
               rows_.size(), own_velocities_.size(), stacked_subspace()) {}
 
-/// Left sides and, behind them, the velocities, so that those of a solution need no further application.
+/// Left sides followed by the velocities, so that the velocities of a solution need no further application.
 Vector FlowSystem::map(const Vector& v) const {
   const std::vector<Vector> parts = rows_.fields<Vector>(v);
   std::vector<Matrix> weighted(equations_.size());
@@ -79,7 +79,7 @@ Vector FlowSystem::preconditioned(const Vector& residual) const {
     for_each_member(own_, [&](std::size_t a) { parts[a] = equations_[a].approximate_inverse(parts[a]); });
     gather(parts);
   } else {
-    // Of few membranes every rank has all.
+    // With few membranes every rank computes all of them.
     for (std::size_t a = 0; a < parts.size(); ++a) parts[a] = equations_[a].approximate_inverse(parts[a]);
   }
   return rows_.stack(parts);

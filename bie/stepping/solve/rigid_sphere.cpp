@@ -97,13 +97,13 @@ SurfaceFields moved_sphere(const SurfaceFields& start, const Membrane& sphere, c
 
 namespace {
 
-/// Unit vectors to where on the parameter sphere the material is that is at these places after the motion.
+/// Points of the parameter sphere, as unit vectors, whose material is at these places after the motion.
 Matrix origins(const Membrane& sphere, const SphereMotion& motion, const Matrix& material, const Matrix& places) {
   const SphereGrid& grid = sphere.fine.grid();
   Matrix nodes(grid.n_points(), 3);
   for (Index i = 0; i < nodes.rows(); ++i) nodes.row(i) = direction(point_of(grid, i));
   const Matrix r = from_centre(sphere.surface);
-  // From the parameter sphere to the moved one, but for the flow within it.
+  // Rotation from the parameter sphere to the moved sphere, without the flow within it.
   const Matrix3 turned = motion.rotation * nearest_rotation(sphere.surface, nodes, r);
   Matrix from = r.rowwise().normalized() * turned;
   double before = std::numeric_limits<double>::infinity();
@@ -117,7 +117,7 @@ Matrix origins(const Membrane& sphere, const SphereMotion& motion, const Matrix&
       largest = std::max(largest, step.norm());
       from.row(i) = along_great_circle(at, step);
     }
-    // At rounding steps no longer become smaller.
+    // At the level of rounding the steps no longer shrink.
     if (!(largest < before)) break;
     before = largest;
   }

@@ -3,9 +3,9 @@
 #include "bie/physics/membrane.hpp"
 #include "bie/stepping/state/fields.hpp"
 
-/// An inextensible sphere is rigid. To first order its points may leave it at constant area elements, which is the
-/// velocity of Eq. (27); but any shape that they form has more area than the sphere of its volume, so a uniform
-/// tension, which acts on nothing, grows until the membrane only translates and flows within itself.
+/// An inextensible sphere is rigid. To first order its points can leave it at constant area elements, with the velocity
+/// of Eq. (27); but any shape that they form has more area than the sphere of its volume, so a uniform tension, which
+/// moves nothing on a sphere, grows until the membrane only translates and flows within itself.
 namespace vehd {
 
 /// The part of a membrane velocity that a sphere can follow, translation and divergence-free tangential flow:
@@ -13,16 +13,16 @@ namespace vehd {
 /// Accuracy: spectral; a sphere stays one to 1e-10 of its radius (tests/stepping/solve/rigid_sphere_test.cpp)
 Matrix rigid_sphere_velocity(const Membrane& sphere, const Matrix& velocity);
 
-/// Where points of a sphere have moved to.
+/// Motion of the points of a sphere.
 struct SphereMotion {
   Vector3 translation = Vector3::Zero();
   Matrix3 rotation = Matrix3::Identity();  ///< about the centre
   Matrix flow;                             ///< displacement within the sphere, before the rotation, [n_points x 3]
 };
 
-/// The motion by rigid_sphere_velocity during dt, with a finite rotation, which strains nothing however long the step.
+/// The motion by rigid_sphere_velocity during dt, with a finite rotation, which causes no strain at any dt.
 /// @param velocity  coefficients, [n_coefficients x 3]
-/// Accuracy: exact for constant velocities; spheres fall as Stokes says and drift in a tube as Faxén says to 1e-8 at
+/// Accuracy: exact for constant velocities; Stokes's velocity of falling spheres and Faxén's drift in a tube to 1e-8 at
 /// every time order (tests/stepping/solve/rigid_sphere_test.cpp)
 SphereMotion motion_of_velocity(const Membrane& sphere, const Matrix& velocity, double dt);
 
@@ -33,15 +33,14 @@ SphereMotion motion_of_displacement(const Membrane& sphere, const Matrix& displa
 
 /// The sphere after the motion, at its material points, which end on the translated sphere exactly. The mean tension
 /// stays undetermined.
-/// @param start  of the step: the strain there; V_m and λ as they are at the end
+/// @param start  strain at the start of the step; V_m and λ at its end
 SurfaceFields moved_sphere(const SurfaceFields& start, const Membrane& sphere, const SphereMotion& motion);
 
-/// The sphere after the motion, at nodes that are only translated: each node takes over the fields of the material
-/// point that has come to it. The surface is then the translated one of the start, however far its points turn and
-/// flow.
+/// The sphere after the motion, at nodes that are only translated: each node takes the fields of the material point
+/// that has arrived there. The surface is then the translated one of the start, however far its points turn and flow.
 /// @param position  at the start of the step, coefficients [n_coefficients x 3]
 /// @param material  after the motion, at the material points
-/// @throws ConvergenceError where the flow within the sphere is too far for one step
+/// @throws ConvergenceError if the flow within the sphere is too far for one step
 SurfaceFields at_translated_nodes(const Matrix& position, const Membrane& sphere, const SphereMotion& motion,
                                   const SurfaceFields& material);
 

@@ -5,7 +5,7 @@
 namespace vehd {
 namespace {
 
-/// Stokes single layer of the unit sphere on V and W of one degree, the fluids' contrast taken out.
+/// Stokes single layer of the unit sphere on V and W of one degree, over the eigenvalues of the viscosity contrast.
 struct LayerSpectrum {
   double odd = 1.0;  ///< 2n + 1
   double v = 0.0;

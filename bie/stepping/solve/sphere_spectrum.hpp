@@ -19,11 +19,11 @@ struct SphereFlow {
 /// (n+1)/((2n+1)(2n−1)); weighted densities carry R². A viscosity contrast divides them by those of
 /// contrast_spectrum.
 /// Accuracy: closed form; the assembled system meets it to 1e-10 (tests/stepping/solve/flow_system_test.cpp)
-/// Source: the spectrum that Veerapaneni et al. 2011 precondition with
+/// Source: the preconditioner of Veerapaneni et al. 2011
 Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int n);
 
-/// The entry of h alone in sphere_flow_block for the degree after the last of the position, which has V and no W and is
-/// not bent.
+/// The entry of h in sphere_flow_block for the first degree above that of the position, which has V but neither W nor
+/// bending.
 double unresolved_curvature(const SphereFlow& sphere, int n);
 
 /// The equations that hold a sphere in shape, degree n: rows u·n and J ∇_γ·u, columns a force c n and λ. Without

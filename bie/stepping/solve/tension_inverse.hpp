@@ -16,10 +16,10 @@ struct TensionGrid {
   explicit TensionGrid(int order);
 };
 
-/// Approximate inverse of λ ↦ J ∇_γ·u of one membrane, u the velocity that λ makes alone: by its matrix −Fᵀ U F with
-/// F from λ to J f_λ and U from J f to u, for ∫λ ∇_γ·u dA = −∫f_λ·u dA. Products are formed on the grid of degree p,
-/// where they alias; a preconditioner can do with that. Close to a sphere, where a uniform tension does next to
-/// nothing, its response is taken to be larger.
+/// Approximate inverse of λ ↦ J ∇_γ·u of one membrane, u the velocity due to λ: from its matrix −Fᵀ U F with F from λ
+/// to J f_λ and U from J f to u, since ∫λ ∇_γ·u dA = −∫f_λ·u dA. Products are formed on the grid of degree p, where
+/// they alias; that suffices for a preconditioner. Close to a sphere, where the response to a uniform tension nearly
+/// vanishes, a larger one is assumed.
 ///
 /// Accuracy: a coupled solve of fifty prolates takes half as many iterations as with the inverse of a sphere
 /// (tests/stepping/solve/tension_solve_test.cpp)
@@ -29,16 +29,16 @@ class TensionInverse {
  public:
   /// @param one            not a sphere
   /// @param entries        coefficients that λ can have, ascending from the mean
-  /// @param mean_response  a tenth of it is the least response to a uniform tension that is assumed
+  /// @param mean_response  the response to a uniform tension is taken as at least a tenth of this
   TensionInverse(const FlowMembrane& one, const TensionGrid& grid, std::vector<Index> entries, double mean_response);
 
-  /// Entries of λ, [entries], from those of J ∇_γ·u, likewise.
+  /// Entries of λ, [entries], from those of J ∇_γ·u, [entries].
   [[nodiscard]] Vector apply(const Vector& divergence) const;
 
  private:
-  Eigen::PartialPivLU<Matrix> beyond_mean_;  ///< between the entries behind the first
+  Eigen::PartialPivLU<Matrix> beyond_mean_;  ///< LU of the matrix without the first entry, the mean
   Eigen::RowVectorXd to_mean_;
-  Vector of_mean_;  ///< what the others do about a unit mean
+  Vector of_mean_;  ///< other entries with the response of a unit mean
   double mean_ = 1.0;
 };
 

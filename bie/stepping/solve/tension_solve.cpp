@@ -12,7 +12,7 @@ namespace vehd {
 
 namespace {
 
-/// Preconditioners of many membranes, of those of this rank.
+/// Finds the preconditioners of the membranes of this rank, if there are many.
 void find_inverses(std::vector<FlowEquations>& all, const std::vector<std::size_t>& own) {
   std::map<int, TensionGrid> grids;
   for (const std::size_t a : own) {
@@ -68,7 +68,7 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   FlowSystem::Solution solution;
   std::vector<FlowScalars> unknowns;
   int iterations = 0;
-  // A start that was much larger than the solution is no measure of the tensions: then the solution is.
+  // If the start was much larger than the solution, the tolerance is relative to the solution instead.
   for (double size = system.size_of(first);;) {
     solution = system.solve(left, tolerance, size);
     iterations += solution.report.iterations;

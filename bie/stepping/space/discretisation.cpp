@@ -11,15 +11,15 @@ namespace vehd {
 
 namespace {
 
-/// Entries of the Stokes layers up to which threads have a state each, nodes of the step or snapshots within it. What
-/// is larger keeps all of them busy with one, and two would not fit the caches. Measured.
+/// Largest Stokes layers, in entries, with which each thread works on its own node of the step or snapshot. Larger ones
+/// keep all threads busy with one state, and two would not fit the caches. Measured.
 constexpr double most_entries_of_small_operators = 1e6;
 
-/// Degree up to which transforms for layers between vesicles are kept: some 20 MB.
+/// Degree up to which transforms for layers between vesicles are kept: about 20 MB.
 constexpr int kHighestPrepared = 32;
 
-/// The least even number of longitudes that integrates products of harmonics and that the turns map onto itself; a few
-/// more where that makes transforms fast.
+/// The least even number of longitudes that integrates products of harmonics and whose set the turns map onto itself; a
+/// few more if that makes transforms fast.
 int n_longitudes(int grid_order, int fold, bool fast) {
   const int step = std::lcm(2, fold), least = 2 * grid_order + 2;
   return fast ? fast_longitudes(least, step) : step * ((least + step - 1) / step);
@@ -33,7 +33,7 @@ SphereTransform transform_for(const Symmetry& symmetry, const NumericalSettings&
 }
 
 SphereTransform curvature_transform_on(const SphereTransform& fine) {
-  // A grid that is not upsampled cannot tell the next degree.
+  // A grid that is not upsampled cannot resolve the next degree.
   const int order = std::min(fine.order() + 1, fine.grid().order);
   const int azimuthal_order = fine.azimuthal_order() == fine.order() ? order : fine.azimuthal_order();
   return {order, fine.grid(), azimuthal_order};
@@ -44,7 +44,7 @@ SphereTransform curvature_transform_on(const SphereTransform& fine) {
 MembraneSpace::MembraneSpace(const NumericalSettings& settings, const Symmetry& symmetry)
     : subspace_(symmetry, settings.order),
       whole_(settings.order, make_grid(settings.order), symmetry.axisymmetric ? 1 : settings.order),
-      // Each of its nodes is a target, which costs more than a transform.
+      // No further longitudes for fast transforms: each node is a target, which costs more.
       targets_(transform_for(symmetry, settings, settings.order, false)),
       fine_(transform_for(symmetry, settings, settings.upsampling * settings.order, true)),
       curvature_(curvature_transform_on(fine_)),
@@ -62,11 +62,11 @@ Discretisation::Discretisation(const NumericalSettings& settings, const Symmetry
   prepare_pairs(ranks);
 }
 
-/// Ranks share the vesicles by the sizes of the operators.
+/// Prepares transforms for pairs, and distributes the vesicles over ranks by the sizes of their operators.
 void Discretisation::prepare_pairs(const Ranks& ranks) {
   if (n_vesicles() < 2 && !settings_.beside_wall) return;
   for (const auto& space : vesicles_) {
-    // Tables grow with the cube of the degree, and take ever less of a step.
+    // Tables grow with the cube of the degree, while the share of transforms in a step falls.
     if (space->order() <= kHighestPrepared) prepare_pair_transforms(space->order(), pair_transforms_);
   }
   if (n_vesicles() < 2) return;

@@ -17,11 +17,11 @@ namespace vehd {
 struct NumericalSettings {
   int order = 16;                         ///< p
   int time_order = 1;                     ///< order of a step in dt, 1 … highest_time_order
-  int upsampling = 2;                     ///< nonlinear terms live on the grid of order upsampling * p
+  int upsampling = 2;                     ///< nonlinear terms are evaluated on the grid of order upsampling * p
   int longitude_fold = 1;                 ///< every grid is its own image under turns by 2π/fold about z
-  bool beside_wall = false;               ///< even a single vesicle has layers between membranes: those of its image
+  bool beside_wall = false;               ///< there is a wall: even a single vesicle has layers of its image
   double quadrature_oversampling = 1.15;  ///< nodes of the singular quadrature in θ per degree
-  double quadrature_tolerance = 1e-4;     ///< of LayerCheck::error, above which finer quadrature is taken
+  double quadrature_tolerance = 1e-4;     ///< of LayerCheck::error, above which the quadrature is refined
   double flow_tolerance = 1e-9;           ///< of the tension and velocity solves
   double electric_tolerance = 1e-10;      ///< of the charge-density and charging solves
   double constraint_tolerance = 1e-9;     ///< of area and volume, relative, at the end of a step
@@ -33,27 +33,27 @@ struct NumericalSettings {
 class MembraneSpace {
  public:
   /// @param settings  with the degree and the oversampling of this membrane
-  /// @param symmetry  of every state that will be stepped: only what it leaves independent is computed
+  /// @param symmetry  of every state of the run: only independent entries are computed
   MembraneSpace(const NumericalSettings& settings, const Symmetry& symmetry);
 
   [[nodiscard]] int order() const { return whole_.order(); }
   [[nodiscard]] const SymmetrySubspace& subspace() const { return subspace_; }
-  /// Transform between degree p and the grid of order p with all its longitudes; it knows m = 0 and ±1 alone where the
-  /// symmetry leaves no others.
+  /// Transform between degree p and the grid of order p with all its longitudes; only with m = 0 and ±1 for
+  /// axisymmetric states.
   [[nodiscard]] const SphereTransform& transform() const { return whole_; }
   /// Transform between degree p and the grid of order p on the longitudes that the symmetry leaves: the targets of the
   /// layers.
   [[nodiscard]] const SphereTransform& targets() const { return targets_; }
-  /// Transform between degree p and the upsampled grid; of axisymmetric fields it sees four longitudes.
+  /// Transform between degree p and the upsampled grid; four longitudes if axisymmetric.
   [[nodiscard]] const SphereTransform& fine_transform() const { return fine_; }
-  /// Transform between the upsampled grid and the degree to which implicit steps know changes of H, see
-  /// FlowOptions: one more than p, as positions of degree p have normal parts of the next degree.
+  /// Transform between the upsampled grid and the degree of changes of H in implicit steps, see FlowOptions: p + 1,
+  /// since positions of degree p have normal parts of the next degree.
   [[nodiscard]] const SphereTransform& curvature_transform() const { return curvature_; }
-  /// Symmetries of fields of that degree.
+  /// Symmetry of fields of that degree.
   [[nodiscard]] const SymmetrySubspace& curvature_subspace() const { return curvature_subspace_; }
   /// Singular quadrature about the targets.
   [[nodiscard]] const RotatedQuadrature& quadrature() const { return quadrature_; }
-  /// Turns by 2π/fold about z take states and longitudes of the targets to each other.
+  /// States and longitudes of the targets are invariant under turns by 2π/fold about z.
   [[nodiscard]] int fold() const { return fold_; }
 
  private:
@@ -67,14 +67,14 @@ class MembraneSpace {
   int fold_;
 };
 
-/// How fine one membrane is resolved.
+/// Resolution of one membrane.
 struct ResolutionLevel {
   int order = 16;                      ///< degree p
   double quadrature_refinement = 1.0;  ///< nodes of the singular quadrature, relative to those of the settings
 };
 
-/// The spaces of all vesicles with the settings that they share, and which rank computes what of which vesicle.
-/// Immutable; a copy shares the spaces.
+/// The spaces of all vesicles, their common settings, and the distribution of the vesicles over ranks. Immutable;
+/// copies share the spaces.
 class Discretisation {
  public:
   /// One vesicle with the degree and the quadrature of the settings.
@@ -92,12 +92,12 @@ class Discretisation {
   /// Space of one vesicle.
   [[nodiscard]] const MembraneSpace& vesicle(std::size_t a) const { return *vesicles_[a]; }
   [[nodiscard]] std::size_t n_vesicles() const { return vesicles_.size(); }
-  /// Which vesicle has its operators on which rank.
+  /// Which rank has the operators of which vesicle.
   [[nodiscard]] const Partition& partition() const { return partition_; }
-  /// Transforms that layers between the vesicles need at every step, as far as they take little memory.
+  /// Transforms that layers between the vesicles need at every step, as far as they need little memory.
   [[nodiscard]] const SharedTransforms& pair_transforms() const { return pair_transforms_; }
-  /// Is solving for one state too little for all threads, so that they had better have a state each? Never where ranks
-  /// wait for each other.
+  /// Is one state too little work for all threads, so that each should have a state of its own? Never with several
+  /// ranks, which wait for each other.
   [[nodiscard]] bool leaves_threads_idle() const;
 
  private:
@@ -111,8 +111,8 @@ class Discretisation {
   SharedTransforms pair_transforms_;
 };
 
-/// The membrane at a position with the operators of the selection; it may outlive the space. A viscosity contrast takes
-/// the place of the double layer that it is made of.
+/// The membrane at a position with the selected operators; it can outlive the space. A viscosity contrast replaces the
+/// double layer from which it is built.
 /// @param position  coefficients, [n_coefficients x 3]
 Membrane membrane_at(const MembraneSpace& space, const Matrix& position, const LayerSelection& selection,
                      double viscosity_ratio, Instruments& instruments);

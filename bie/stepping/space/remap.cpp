@@ -11,10 +11,10 @@ namespace vehd {
 
 namespace {
 
-/// Sliding of degree n by an angle a is undone up to n a of this: a wave that slides past by a quarter of its length
-/// (π/2) is no longer followed by one step along great circles.
+/// Sliding of degree n by an angle a is undone up to this phase n a: one step along great circles no longer follows a
+/// wave that has slid by a quarter of its length (π/2).
 constexpr double largest_phase = 1.5;
-/// How sharply degrees fade out there: half at the phase, a thousandth at 2.4 times it.
+/// Exponent of the fade-out there: half at the phase, a thousandth at 2.4 times it.
 constexpr int phase_power = 8;
 /// Sliding below this is rounding.
 constexpr double no_sliding = 1e-13;
@@ -81,7 +81,7 @@ Matrix cartesian(const SphereGrid& grid, const SphereVectors& field) {
   return vectors;
 }
 
-/// cos √y and sin √y/√y to rounding, for ways whose square y is no longer than this.
+/// cos √y and sin √y/√y to rounding, for squared distances y up to this.
 constexpr double kShortWay2 = 0.25;
 inline double cosine_of_root(double y) {
   double sum = 1.0;
@@ -94,7 +94,7 @@ inline double sinc_of_root(double y) {
   return sum;
 }
 
-/// r̂ moved by −vector, of which the tangential part counts, along great circles.
+/// Points r̂ moved along great circles by the tangential part of −vector.
 Directions moved_back(const Directions& r, const Matrix& vectors) {
   Directions result(r.rows(), 3);
   double longest2 = 0.0;
@@ -109,7 +109,7 @@ Directions moved_back(const Directions& r, const Matrix& vectors) {
     }
     longest2 = std::max(longest2, length2);
   }
-  // Not (longest2 > …): directions that are not numbers stay such.
+  // Not (longest2 > …): NaN must take this branch, and stay NaN.
   if (!(longest2 <= kShortWay2)) {
     for (Index i = 0; i < r.rows(); ++i) result.row(i) = along_great_circle(r.row(i), result.row(i));
     return result;
@@ -125,8 +125,8 @@ Directions moved_back(const Directions& r, const Matrix& vectors) {
   return result;
 }
 
-/// Cartesian components of the sliding at the middle of the way, which keeps areas to third order: [n x 3]. Degrees
-/// whose wavelength the step slides past fade out.
+/// Cartesian components of the sliding at the midpoint of its path, which preserves areas to third order: [n x 3].
+/// Degrees whose wavelength is not long against the sliding fade out.
 Matrix midway_sliding(const SphereTransform& fine, const Directions& nodes, const SphereVectors& sliding) {
   const Matrix at_nodes = cartesian(fine.grid(), sliding);
   const double length = at_nodes.rowwise().norm().maxCoeff();
@@ -143,7 +143,7 @@ Matrix midway_sliding(const SphereTransform& fine, const Directions& nodes, cons
          share(fine.order() + 1) * beyond;
 }
 
-/// Coefficients of every column at the given places.
+/// Coefficients of every column from its values at the given points.
 Matrix carried_to(const SphereTransform& fine, const Matrix& columns, const Directions& from) {
   return fine.analyze(evaluate_harmonics(columns, from, fine.azimuthal_order()));
 }
@@ -153,8 +153,8 @@ Matrix carried_to(const SphereTransform& fine, const Matrix& columns, const Dire
 GridMove::GridMove(const SphereTransform& fine, const Matrix& displacement, const Matrix& position) : fine_(fine) {
   const Directions nodes = node_directions(fine.grid());
   const Matrix sliding = midway_sliding(fine, nodes, sliding_part(fine, make_surface(fine, position), displacement));
-  // Smoothing answers to the shape at its new nodes. Taken at the old ones it would be out of phase with modes whose
-  // wavelength the sliding of one step passes, and would feed them.
+  // The smoothing is that of the shape at its new nodes. At the old nodes it would be out of phase with modes whose
+  // wavelength is not long against the sliding of one step, and would amplify them.
   const Matrix slid = sliding.isZero(0.0) ? position : carried_to(fine, position, moved_back(nodes, sliding));
   const SphereVectors smoothing = smoothing_gradient(fine, make_surface(fine, slid), slid);
   from_ = moved_back(nodes, sliding + cartesian(fine.grid(), smoothing));
@@ -162,7 +162,7 @@ GridMove::GridMove(const SphereTransform& fine, const Matrix& displacement, cons
 
 Matrix GridMove::carried(const Matrix& columns) const { return carried_to(fine_, columns, from_); }
 
-/// All together cost little more than one of them.
+/// All fields together cost little more than one.
 SurfaceFields GridMove::carried(const SurfaceFields& fields) const {
   SurfaceFields result = fields;
   const Matrix columns = carried(columns_of(fields));

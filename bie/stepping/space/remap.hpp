@@ -11,40 +11,40 @@ struct SphereVectors {
 };
 
 /// Divergence-free part of the tangential part of `displacement`: with a its contravariant components, J a = ∇Ψ + r̂×∇X
-/// on the unit sphere, and the first part alone changes area elements. A uniform translation slides nothing, so the
-/// mean of the displacement over the surface is left out.
+/// on the unit sphere, and only the first part changes area elements. A uniform translation slides no points, so the
+/// mean of the displacement over the surface is subtracted.
 /// @param displacement  coefficients, [n_coefficients x 3]
 /// Accuracy: spectral; a rotation about the centre of a sphere is undone to second order
 /// (tests/stepping/space/remap_test.cpp)
 /// Source: Helmholtz decomposition on the unit sphere
 SphereVectors sliding_part(const SphereTransform& fine, const Surface& surface, const Matrix& displacement);
 
-/// Moves the grid over a surface without moving the surface: new node s takes what the material point Φ(s) carries, for
-/// every field by spectral evaluation. Φ undoes the part of the last displacement that only slides
-/// points along the surface (the divergence-free part of the tangential velocity, which shears a grid without end
-/// in tank-treading while area elements stay), and descends the energy of the high degrees of x (Veerapaneni et al.
-/// 2011) by one step. Sliding of degrees whose wavelength one step passes is left: undoing it would feed them.
-/// Accuracy: spectral; area to 1e-11, volume to 1e-12, energy to 1e-8 at p = 32, new nodes on the
-/// old surface to 1e-7 (tests/stepping/space/remap_test.cpp)
+/// Moves the grid over a surface without moving the surface: each field at the new node s takes its value at the
+/// material point Φ(s), by spectral evaluation. Φ undoes the part of the last displacement that only slides points
+/// along the surface (the divergence-free part of the tangential velocity, which in tank-treading shears a grid without
+/// limit while area elements stay), and takes one descent step of the energy of the high degrees of x (Veerapaneni et
+/// al. 2011). Sliding is kept in degrees whose wavelength is not long against it: undoing it would amplify them.
+/// Accuracy: spectral; area to 1e-11, volume to 1e-12, energy to 1e-8 at p = 32, new nodes on the old surface to 1e-7
+/// (tests/stepping/space/remap_test.cpp)
 /// Source: Veerapaneni et al. 2011 for the descent; undoing the sliding is of this project
 class GridMove {
  public:
   /// @param fine          degree p ↔ upsampled grid; must outlive it
   /// @param displacement  dt u, the last move of the material, coefficients [n_coefficients x 3]
-  /// @param position      of the material points, likewise
+  /// @param position      of the material points, [n_coefficients x 3]
   GridMove(const SphereTransform& fine, const Matrix& displacement, const Matrix& position);
 
-  /// Fields given at the material points, at the new nodes.
+  /// Fields at the new nodes, from those at the material points.
   [[nodiscard]] SurfaceFields carried(const SurfaceFields& fields) const;
   /// Other fields at the new nodes, coefficients [n_coefficients x n_fields].
   [[nodiscard]] Matrix carried(const Matrix& columns) const;
 
  private:
   const SphereTransform& fine_;
-  Matrix from_;  // unit vectors to where the new nodes are on the parameter sphere of the material
+  Matrix from_;  // unit vectors: the new nodes on the parameter sphere of the material
 };
 
-/// The fields of a surface carried by the move of its grid.
+/// The fields of a surface after the move of its grid.
 /// @param displacement  see GridMove, [n_coefficients x 3]
 SurfaceFields remap(const SphereTransform& fine, const Matrix& displacement, const SurfaceFields& fields);
 

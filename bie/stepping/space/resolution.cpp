@@ -11,15 +11,14 @@ namespace vehd {
 
 namespace {
 
-/// Errors of V_m, tension and q are relative to their size, but at least to this share of |E|R, κ_B/R² and η|E|, so
-/// that a small V_m at the start of charging need not be known to all its digits.
+/// Errors of V_m, tension and q are relative to their largest value, or to this share of |E|R, κ_B/R² and η|E| if that
+/// is larger: a small V_m at the start of charging need not be accurate to all its digits.
 constexpr double least_share_of_scale = 0.1;
-/// Slowest decay of a spectrum from degree to degree that a geometric series continues: slower ones do not decay within
-/// any degree that vehd has (0.97 to the power 64 is a seventh).
+/// Slowest decay from degree to degree in the extrapolation of a spectrum as a geometric series: slower spectra do not
+/// decay within the degrees in use (0.97 to the power 64 is a seventh).
 constexpr double slowest_decay = 0.97;
 
-/// Of each degree n what a field can be at most: max |f_n| ≤ |coefficients of degree n| √((2n+1)/4π), by the addition
-/// theorem.
+/// Bound of each degree n of a field: max |f_n| ≤ |coefficients of degree n| √((2n+1)/4π), by the addition theorem.
 /// @param coefficients  [n_coefficients x F]; of vectors the norm is bounded
 Vector degree_bounds(const Matrix& coefficients) {
   const int order = order_of(coefficients.rows());
@@ -31,7 +30,7 @@ Vector degree_bounds(const Matrix& coefficients) {
   return bounds;
 }
 
-/// That of the degrees above `middle`.
+/// The part of the degrees above `middle`.
 Matrix upper_part(Matrix coefficients, int middle) {
   coefficients.topRows(n_coefficients(middle)).setZero();
   return coefficients;
@@ -82,7 +81,7 @@ double least_potential_scale(const AppliedField& electric, double radius) {
 
 double scale_of(double least, double largest) {
   const double scale = std::max(largest, least);
-  // Where both are zero any scale serves: the error is zero.
+  // If both are zero, so is the error, and any scale will do.
   return scale > 0.0 ? scale : 1.0;
 }
 
@@ -112,7 +111,7 @@ Resolution::Resolution(const Model& model, const VesicleState& vesicle, const Ma
     : potential_share_(share.potential) {
   const double radius = vesicle.radius();
   shape_ = share.shape * degree_bounds(vesicle.position) / radius;
-  shape_[0] = 0.0;  // where the vesicle is
+  shape_[0] = 0.0;  // position of the vesicle
   for_each_property(vesicle.material, [&](const Vector& property) {
     const Vector bounds = degree_bounds(property);
     if (const double size = bounds.maxCoeff(); size > 0.0) shape_ = shape_.cwiseMax(bounds / size);
@@ -129,10 +128,10 @@ Resolution::Tail Resolution::tail_of_cut(int order) const {
     const Vector potential = potential_.head(order + 1);
     bound = bound.cwiseMax(potential_share_ * potential / scale_of(least_scale_, potential.maxCoeff()));
   }
-  // Symmetry can silence every other degree.
+  // Symmetry can make every other degree vanish.
   for (Index n = order - 1; n >= 0; --n) bound[n] = std::max(bound[n], bound[n + 1]);
   constexpr double kFloor = 1e-16;
-  // The last but one holds the last as well, whichever of them is silent.
+  // The last but one now bounds the last as well, whichever of them vanishes.
   const int middle = order / 2;
   const int end = std::max(middle + 1, order - 1);
   const double ratio = std::max(bound[end], kFloor) / std::max(bound[middle], kFloor);
@@ -140,7 +139,7 @@ Resolution::Tail Resolution::tail_of_cut(int order) const {
   return tail;
 }
 
-/// Sum of the geometric series from degree `order` + 1 on, where that is at least the last of the spectrum.
+/// Sum of the geometric series above degree `order`, which is at least the last of the spectrum.
 double Resolution::Tail::beyond(int order) const {
   const int last = static_cast<int>(bound.size()) - 1;
   return bound[std::max(0, last - 1)] * decay / (1.0 - decay) * std::pow(decay, order - last);

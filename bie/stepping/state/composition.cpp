@@ -19,7 +19,7 @@ void append(std::vector<EffectDescription>& effects, EffectDescription effect) {
   if (std::ranges::count(effects, effect.name, &EffectDescription::name) == 0) effects.push_back(std::move(effect));
 }
 
-/// Those that rows of the table make.
+/// The effects that rows of the effect table make.
 std::vector<MadeEffect> registered_effects(const Model& model, const VesicleModel& vesicle) {
   std::vector<MadeEffect> result;
   for (const EffectRow& row : effect_table()) {
@@ -47,7 +47,7 @@ std::vector<MadeEffect> effects_on_all(const Model& model) {
 std::vector<EffectDescription> effects_of(const Model& model) {
   std::vector<EffectDescription> result;
   for (const VesicleModel& vesicle : model.vesicles) {
-    // Flows and forces move nothing where shapes are frozen.
+    // Flows and forces have no effect on frozen shapes.
     for (const MadeEffect& effect : model.mobile ? effects_on(model, vesicle) : registered_effects(model, vesicle)) {
       append(result, effect->description());
     }

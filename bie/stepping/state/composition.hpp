@@ -18,8 +18,8 @@ std::vector<std::shared_ptr<const ExplicitEffect>> explicit_effects(const Model&
 /// Every effect that some vesicle has in a step, each once.
 std::vector<EffectDescription> effects_of(const Model& model);
 
-/// Nothing electric needs to be done: no field and no V_m on any membrane, and no change of that before the next
-/// discontinuity of the waveform or, with Limit::before, at the time of the state and before a jump there.
+/// Is the solution of the electric problem zero? That is, no field, pump, V_m or free charge on any membrane, until the
+/// next discontinuity of the waveform or, with Limit::before, at the time of the state before a jump there.
 bool electric_inactive(const Model& model, const State& state, Limit limit = Limit::after);
 
 /// The operators that the effects on one vesicle need; those of the electric problem only while it is active.

@@ -7,29 +7,29 @@
 #include "bie/stepping/state/fields.hpp"
 #include "bie/support/ranks/parcel.hpp"
 
-/// The fields of a membrane, each in one row: what carries, turns, resizes, compares, sends, stores and reads them goes
-/// through these tables. To add a field is to add its member and its row.
+/// The fields of a membrane, one row each. All code that remaps, rotates, resizes, compares, sends, stores or reads
+/// fields iterates over these tables; a new field needs only its member and its row.
 namespace vehd {
 
 enum class FieldKind {
   vector,     ///< components turn with the axes
-  scalar,     ///< its own image
-  potential,  ///< takes the sign of V_m, which a map that reverses the field changes
+  scalar,     ///< unchanged by maps
+  potential,  ///< changes sign under maps that reverse the field
 };
 
 enum class FieldRole {
   unknown,   ///< steps solve for it
-  carried,   ///< rides on the material
-  guess,     ///< where the next solve starts; it decides nothing
-  computed,  ///< follows from the others at one time
+  carried,   ///< moves with the material
+  guess,     ///< initial guess of the next solve, no more
+  computed,  ///< follows from the others at the same time
 };
 
 struct FieldRow {
-  const char* name;          ///< of the member; in a checkpoint
-  std::string_view dataset;  ///< in run.h5; empty: not there, or under the name of another one
+  const char* name;          ///< of the member, and in a checkpoint
+  std::string_view dataset;  ///< in run.h5; empty: not written, or under another field's name
   FieldKind kind;
   FieldRole role;
-  std::string_view dimension;  ///< as SiUnits takes it
+  std::string_view dimension;  ///< in the notation of SiUnits
   std::string_view description;
 };
 
@@ -42,7 +42,7 @@ concept OfSurface = std::derived_from<std::remove_const_t<Fields>, SurfaceFields
 template <typename Fields>
 concept OfVesicle = std::derived_from<std::remove_const_t<Fields>, VesicleFields>;
 
-/// visit(row, member, …) for every field, there or empty, with that member of each of the arguments.
+/// Calls visit(row, member, …) for every field, empty or not, with that member of each argument.
 template <typename Visit, OfUnknowns... Fields>
 void for_each_unknown(const Visit& visit, Fields&... f) {
   using enum FieldKind;
@@ -123,7 +123,7 @@ void for_each_field(const Visit& visit, Fields&... f) {
       f.free_charge_out...);
 }
 
-/// The scalars and potentials that are there, one after the other: visit(Vector&).
+/// Calls visit(Vector&) for every scalar and potential that is not empty.
 template <OfSurface Fields, typename Visit>
 void for_each_scalar(Fields& fields, const Visit& visit) {
   for_each_field(
@@ -142,7 +142,7 @@ inline bool is_finite(const SurfaceFields& fields) {
   return result;
 }
 
-/// All members, as they are sent between processes.
+/// Visits all members, for messages between ranks.
 template <MaybeConst<Unknowns> Fields, typename Visit>
 void visit_members(Fields& fields, Visit& visit) {
   for_each_unknown([&](const FieldRow&, auto& field) { visit(field); }, fields);
@@ -158,7 +158,7 @@ void visit_members(Fields& fields, Visit& visit) {
   for_each_field([&](const FieldRow&, auto& field) { visit(field); }, fields);
 }
 
-/// Where columns_of() has the fields that are there: visit(field, first column).
+/// Calls visit(field, first column) for every field that is not empty, with its first column in columns_of().
 /// @return the number of all columns
 template <typename Fields, typename Visit>
 Index for_each_block(Fields& fields, const Visit& visit) {
@@ -173,7 +173,7 @@ Index for_each_block(Fields& fields, const Visit& visit) {
   return column;
 }
 
-/// The fields that are there, one behind the other, [n_coefficients x 3 …].
+/// All fields that are not empty, side by side, [n_coefficients x 3 …].
 template <typename Fields>
 Matrix columns_of(const Fields& fields) {
   Matrix columns(fields.position.rows(), for_each_block(fields, [](const auto&, Index) {}));

@@ -11,12 +11,12 @@
 
 namespace vehd {
 
-/// The unknowns of one membrane with what else rides on its material points, in spherical-harmonic coefficients of one
-/// degree, index n² + n + m (docs/conventions.md). Fields of absent effects are empty.
+/// The unknowns of one membrane and the other fields that move with its material points, spherical-harmonic
+/// coefficients of one degree, index n² + n + m (docs/conventions.md). Fields of absent effects are empty.
 struct SurfaceFields : Unknowns {
   Vector area_strain{};         ///< W/W_ref − 1
   Vector tension{};             ///< λ, also the initial guess of the next solve; empty unless inextensible
-  MembraneMaterial material{};  ///< what differs from place to place
+  MembraneMaterial material{};  ///< spatially varying properties
 };
 
 /// The physical fields of one membrane at one time, instantaneous (no step size enters): coefficients of its degree,
@@ -26,14 +26,14 @@ struct VesicleFields {
   Matrix force_bending;   ///< f_b
   Matrix force_tension;   ///< f_λ
   Matrix force_electric;  ///< f_E = [[n·Σ_el]]
-  Matrix force_contact;   ///< f_c, which joins the sum with plus
+  Matrix force_contact;   ///< f_c, added to f
   Vector tension;         ///< λ
   Vector charge;          ///< q = [[∂φ/∂n]]
-  Vector conductance;     ///< G_m where it varies; empty elsewhere
-  Vector potential;       ///< V_m where it is no part of the state but follows from free charges; empty elsewhere
-  // Of a field of which only the mean over a period counts, in place of V_m and q; the electric force is the mean.
+  Vector conductance;     ///< G_m if it varies, else empty
+  Vector potential;       ///< V_m if it follows from free charges, else empty
+  // In an averaged ac field these replace V_m and q, and the electric force is its mean over a period.
   Matrix potential_amplitude;  ///< of V_m, complex: the columns are real and imaginary part, [n_coefficients x 2]
-  Matrix charge_amplitude;     ///< of q likewise
+  Matrix charge_amplitude;     ///< of q, [n_coefficients x 2]
   // Free charge of the inner and of the outer face, per area; empty without displacement currents.
   Vector free_charge_in{};   ///< q_i = C_m V_m − ε_i E_i
   Vector free_charge_out{};  ///< q_e = ε_e E_e − C_m V_m
@@ -49,11 +49,11 @@ struct Fields {
   std::vector<VesicleFields> vesicles;
 };
 
-/// How near a membrane is to its criterion of poration, see poration_load().
+/// Load of a membrane relative to its criterion of poration, see poration_load().
 struct PorationLoad {
-  double load = 0.0;                                       ///< met at 1; 0 without a criterion
-  double rate = std::numeric_limits<double>::quiet_NaN();  ///< in time, where it is known
-  Vector3 place = Vector3::Zero();                         ///< where on the membrane
+  double load = 0.0;                                       ///< reaches 1 when the criterion is met; 0 without one
+  double rate = std::numeric_limits<double>::quiet_NaN();  ///< time derivative; NaN if unknown
+  Vector3 place = Vector3::Zero();                         ///< of the largest load on the membrane
 };
 
 /// Values of history.csv for one membrane at one time. In an averaged field V_m and q are magnitudes of amplitudes.
@@ -68,9 +68,9 @@ struct VesicleDiagnostics {
   double strain_max = 0;                    ///< max |W/W_ref − 1|
   double spectrum_tail = 0;                 ///< see docs/conventions.md
   double wrinkle_degree = 0;                ///< see wrinkle_degree()
-  double wrinkling_rate = 0;                ///< see wrinkling_rate(), of the mean tension and the degrees there are
+  double wrinkling_rate = 0;                ///< see wrinkling_rate(), at the mean tension, up to degree p
   double quadrature_error = 0;              ///< LayerCheck::error
-  /// The layers are less exact than NumericalSettings::quadrature_tolerance, and finer quadrature would help.
+  /// The layers are less accurate than NumericalSettings::quadrature_tolerance, and finer quadrature would help.
   bool quadrature_is_coarse = false;
   double separation = std::numeric_limits<double>::infinity();  ///< of its own parts, see separation()
   double centroid_x = 0, centroid_y = 0, centroid_z = 0;        ///< of the volume
@@ -84,20 +84,20 @@ struct VesicleDiagnostics {
   std::array<double, 5> shape_modes{};  ///< s_2 … s_6 about the field, 0 without one, see volume_moments.hpp
   double Vm_pole_plus = 0,
          Vm_pole_minus = 0;  ///< where the line along the field leaves the membrane, 0 without a field
-  double Vm_phase_deg = 0;   ///< of V_m at the former against the field, of an averaged field
-  Rheology rheology{};       ///< of this vesicle by itself
-  // Of a membrane that porates.
+  double Vm_phase_deg = 0;   ///< of V_m at the former relative to an averaged field
+  Rheology rheology{};       ///< of this vesicle only
+  // With poration.
   double conductance_max = 0.0;                    ///< largest G_m
   double poration_max = 0.0, poration_mean = 0.0;  ///< of the porosity or of the density of pores
   PorationLoad load{};
-  double poration_load = 0;  ///< that of `load`
-  // Beside a wall.
+  double poration_load = 0;  ///< PorationLoad::load
+  // With a wall.
   double gap_wall = std::numeric_limits<double>::infinity();  ///< between the membrane and the wall
-  double force_wall = 0.0;  ///< with which the membrane presses the fluid towards the wall
-  // Of a membrane that differs from place to place.
+  double force_wall = 0.0;                                    ///< of the membrane on the fluid, towards the wall
+  // With a pump or spatially varying properties.
   double elastic_energy = 0.0;                                     ///< ∫κ_B (H − c)² dA
   double net_force_x = 0.0, net_force_y = 0.0, net_force_z = 0.0;  ///< of the membrane on the fluid
-  /// When and where the criterion of poration was first met; infinite and not numbers until then.
+  /// When and where the criterion of poration was first met; infinite and NaN until then.
   double poration_time = std::numeric_limits<double>::infinity();
   double poration_x = std::numeric_limits<double>::quiet_NaN(), poration_y = poration_x, poration_z = poration_x;
 };

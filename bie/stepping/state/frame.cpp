@@ -52,7 +52,7 @@ State rotated(const Matrix3& rotation, State state) {
   for (VesicleState& vesicle : state.vesicles) {
     turn(vesicle, rotation);
     if (vesicle.crossing) vesicle.crossing->place = rotation * vesicle.crossing->place;
-    // Subspaces are those of coefficients in these axes, with this symmetry.
+    // Recycled subspaces hold coefficients in the former axes, with the former symmetry.
     vesicle.recycled = {};
   }
   return without_past(std::move(state));
@@ -66,7 +66,7 @@ Fields rotated(const Matrix3& rotation, Fields fields) {
 
 namespace {
 
-/// Of an angle, and of a distance over the size of a vesicle.
+/// Tolerance of angles, and of distances over the size of a vesicle.
 constexpr double kSamePlace = 1e-12;
 
 bool are_parallel(const Vector3& a, const Vector3& b) { return a.cross(b).norm() <= kSamePlace * a.norm() * b.norm(); }
@@ -87,7 +87,7 @@ std::vector<Vector3> axis_candidates(const Model& model, const State& state) {
     const Matrix shape = vesicle.position.bottomRows(vesicle.position.rows() - 1);
     const Matrix3 axes = principal_axes(shape.transpose() * shape).directions;
     for (int i = 0; i < 3; ++i) add(axes.col(i));
-    // A cap, and whatever else has a side, points along its harmonics of degree 1.
+    // Patterns with one pole, such as a cap, point along their harmonics of degree 1.
     for_each_property(vesicle.material, [&](const Vector& property) {
       const Vector3 side(property[coefficient_index(1, 1)], property[coefficient_index(1, -1)],
                          property[coefficient_index(1, 0)]);
@@ -109,7 +109,7 @@ Vector3 mean_position(const State& state) {
   return sum / (static_cast<double>(state.vesicles.size()) * coefficient_of_one);
 }
 
-/// The laboratory's, and the mean position where the scene is the same about it.
+/// The origin of the laboratory and, if the effects are the same everywhere, the mean position.
 std::vector<Vector3> origin_candidates(const Model& model, const State& state) {
   std::vector<Vector3> result{Vector3::Zero()};
   const auto is_away = [](const VesicleState& vesicle) {
@@ -122,7 +122,7 @@ std::vector<Vector3> origin_candidates(const Model& model, const State& state) {
   return result;
 }
 
-/// How much work a symmetry saves; zero where the frame is not worth leaving the laboratory's axes for.
+/// Measure of the work that a symmetry saves; zero if it does not justify leaving the axes of the laboratory.
 double worth(const Symmetry& symmetry, bool rotated, std::size_t n_vesicles) {
   constexpr double kAxis = 1e6;
   const double of_exchange =
@@ -131,7 +131,7 @@ double worth(const Symmetry& symmetry, bool rotated, std::size_t n_vesicles) {
   return rotated && symmetry.fold == 1 && symmetry.exchange.fold() == 1 ? 0.0 : symmetry.group_order() * of_exchange;
 }
 
-/// In coefficients of degree 0.
+/// The origin as coefficients of degree 0.
 Eigen::RowVector3d shift_of(const Frame& frame) { return frame.origin.transpose() * coefficient_of_one; }
 
 /// "x", "y", "z" or its components.

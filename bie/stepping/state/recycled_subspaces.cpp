@@ -10,7 +10,7 @@ namespace vehd {
 
 namespace {
 
-/// A step that takes this many times the iterations of one without recycling is slowed down by it. Measured.
+/// Recycling pauses after a step with more than this many times the iterations of one without recycling. Measured.
 constexpr double slowed_by_recycling = 2.0;
 /// Steps until recycling is tried again: at two steps in fifty a useless trial costs a few percent of a run. Measured.
 constexpr std::int64_t steps_without_recycling = 50;

@@ -6,32 +6,32 @@
 
 namespace vehd {
 
-/// Contribution of vesicles to the stress and the dipole of a suspension, at one time. Particle stresses are times the
-/// volume of the suspension,
+/// Contribution of vesicles to the stress and the dipole of a suspension, at one time. Particle stresses are multiplied
+/// by the volume of the suspension,
 ///   −∫ ½(f xᵀ + x fᵀ) dA + μ(Λ − 1) ∫ (v nᵀ + n vᵀ) dA,
-/// f a force on the fluid, Λ the ratio of the viscosities, x from `centre`: forces that do not add up to zero have no
-/// stress of their own, only one about a point.
+/// f a force on the fluid, Λ the viscosity ratio, x relative to `centre`: the stress of forces that do not add up to
+/// zero depends on the reference point.
 struct Rheology {
   double volume = 0.0;               ///< of the vesicles
   Vector3 centre = Vector3::Zero();  ///< centroid of that volume
-  // −∫ f (x − centre)ᵀ dA; the symmetric part is the share in the particle stress, the other one is a torque.
+  // −∫ f (x − centre)ᵀ dA; the symmetric part contributes to the particle stress, the other one is a torque.
   Matrix3 bending = Matrix3::Zero();
   Matrix3 tension = Matrix3::Zero();
   Matrix3 electric = Matrix3::Zero();
   Matrix3 others = Matrix3::Zero();     ///< of gravity, contact, spontaneous curvature
   Matrix3 viscosity = Matrix3::Zero();  ///< μ(Λ − 1) ∫ (v nᵀ + n vᵀ) dA
-  // ∫f dA on the fluid; bending and tension have none.
+  // ∫f dA on the fluid; zero for bending and tension.
   Vector3 electric_force = Vector3::Zero();
   Vector3 other_force = Vector3::Zero();
-  Vector3 dipole = Vector3::Zero();  ///< ε ∫ (q x − V_m n) dA, what the field far away is that of
+  Vector3 dipole = Vector3::Zero();  ///< ε ∫ (q x − V_m n) dA, the dipole of the far field
   double electric_power = 0.0;       ///< σ_e E_∞·dipole/ε, see power()
   // Of the fluid without vesicles.
   Matrix3 gradient = Matrix3::Zero();  ///< dv_i/dx_j of a linear flow, zero without one
   double fluid_viscosity = 1.0;        ///< μ
 
-  /// All shares, not symmetric where a torque acts.
+  /// Sum of all contributions; not symmetric if a torque acts.
   [[nodiscard]] Matrix3 moment() const;
-  /// Power that flow and field give on top of what they would without vesicles.
+  /// Additional power of flow and field due to the vesicles.
   [[nodiscard]] double power() const;
   /// Stress : E/(2μ E:E volume) of the rate of strain E, stress_xz/(μ rate volume) in a shear along x; 0 without a
   /// linear flow.
@@ -43,7 +43,7 @@ struct Rheology {
 /// Source: Batchelor 1970
 Rheology together(const std::vector<Rheology>& vesicles);
 
-/// In other axes: vectors v become R v, points origin + R x.
+/// Rheology in other axes: vectors v become R v, points origin + R x.
 Rheology rotated(const Matrix3& rotation, const Vector3& origin, Rheology rheology);
 
 }  // namespace vehd

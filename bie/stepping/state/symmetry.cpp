@@ -23,8 +23,8 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-/// Sign that V_m takes under the reflection g: that of g E = ± E. 0 where the field has another image, or the flow or
-/// any other effect.
+/// Sign of V_m under the reflection g, that of g E = ± E; 0 if the field, the flow or any other effect has another
+/// image.
 int potential_sign(const Model& model, const Reflection& g) {
   bool is_reversed = false;
   for (const MadeEffect& effect : effects_on_all(model)) {
@@ -35,7 +35,7 @@ int potential_sign(const Model& model, const Reflection& g) {
   return is_reversed ? -1 : 1;
 }
 
-/// Are place, shape, strain, V_m and material of both membranes the same? Lengths are compared with the size of the
+/// Are position, shape, strain, V_m and material of both membranes the same? Lengths are compared with the size of the
 /// second one.
 bool are_same(const SurfaceFields& image, const SurfaceFields& fields) {
   bool result = true;
@@ -43,7 +43,7 @@ bool are_same(const SurfaceFields& image, const SurfaceFields& fields) {
     if (!result || row.role == FieldRole::guess || (a.size() == 0 && b.size() == 0)) return;
     result = a.rows() == b.rows();
     if (!result) return;
-    // A place counts by the size of the shape, and what has no unit by 1.
+    // Positions are compared with the size of the shape, dimensionless fields with 1.
     double size = row.dimension == "1" ? 1.0 : b.cwiseAbs().maxCoeff();
     if (row.kind == FieldKind::vector) size = b.bottomRows(b.rows() - 1).cwiseAbs().maxCoeff();
     result = (a - b).cwiseAbs().maxCoeff() <= kRounding * size;
@@ -60,7 +60,7 @@ bool are_alike(const VesicleModel& a, const VesicleModel& b) {
                             [](const auto& one, const auto& other) { return one->is_same_as(*other); });
 }
 
-/// Where a map takes each vesicle; nothing if any is taken to where none is like it.
+/// Where a map takes each vesicle; nothing if the image of any is not a vesicle of the scene.
 std::optional<Exchange::Map> exchange_under(const ImageOfFields& of_fields, const Model& model, const State& state) {
   Exchange::Map map{of_fields, {}};
   const std::size_t n = state.vesicles.size();
@@ -74,7 +74,7 @@ std::optional<Exchange::Map> exchange_under(const ImageOfFields& of_fields, cons
   return map;
 }
 
-/// Is there a vesicle that all maps but the identity move, and none that only some do?
+/// Do all maps except the identity move the same vesicles, at least one?
 bool is_free(const std::vector<Exchange::Map>& maps) {
   const auto moved_by = [](const Exchange::Map& map) {
     std::vector<bool> moved;
@@ -106,7 +106,7 @@ std::vector<Exchange::Map> group_of_reflections(const Model& model, const State&
   return group;
 }
 
-/// The most equal turns about z, at least three.
+/// The largest group of equal turns about z, of at least three; else empty.
 std::vector<Exchange::Map> group_of_turns(const Model& model, const State& state) {
   if (!is_invariant_under_rotations(model)) return {};
   for (int fold = static_cast<int>(state.vesicles.size()); fold > 2; --fold) {
@@ -121,9 +121,9 @@ std::vector<Exchange::Map> group_of_turns(const Model& model, const State& state
   return {};
 }
 
-/// Which vesicles of a scene are images of others: equal ones, up to a few, that mirrors and half turns of the whole
-/// or turns about z take to one another; of these groups the one that leaves least to compute. See Exchange for which
-/// groups count.
+/// Finds which vesicles of a scene are images of others, for up to most_summed_membranes vesicles: the group of
+/// reflections and half turns, or of turns about z, that exchanges equal vesicles and leaves the fewest to compute. See
+/// Exchange for the groups that are allowed.
 Exchange find_exchange(const Model& model, const State& state) {
   const std::size_t n = state.vesicles.size();
   if (n < 2 || n > most_summed_membranes) return {};
@@ -169,8 +169,8 @@ bool has(const Symmetry& symmetry, const State& state) {
                      [&](const VesicleState& vesicle) { return has(symmetry, vesicle); });
 }
 
-/// The largest number of equal turns about z, at least three, under which the scene is its own image; 1 if there is
-/// none. Beyond 2p + 2 it would not save anything.
+/// The largest number of equal turns about z, at least three, under which the scene is invariant; 1 if there is none.
+/// More than 2p + 2 would save nothing.
 int find_fold(const Model& model, const State& state) {
   if (!is_invariant_under_rotations(model)) return 1;
   for (int fold = 2 * highest_order_of(state) + 2; fold > 2; --fold) {

@@ -12,13 +12,13 @@
 #include "bie/stepping/state/fields.hpp"
 #include "bie/stepping/state/state.hpp"
 
-/// Symmetries of a scene, and the fields that they leave. Deviations within 1e-12 of the size count as rounding.
+/// Symmetries of a scene and symmetric parts of its fields. Deviations within 1e-12 of the size count as rounding.
 namespace vehd {
 
-/// Are field, flow and all effects their own images under every rotation about z?
+/// Are field, flow and all effects invariant under every rotation about z?
 bool is_invariant_under_rotations(const Model& model);
 
-/// The fields of an image of a membrane, those of a state or those at one time.
+/// The fields of the image of a membrane, of a state or of one time, from those of the original.
 template <typename Fields>
 Fields image_of(const ImageOfFields& image, Fields fields) {
   for_each_field(
@@ -33,17 +33,17 @@ Fields image_of(const ImageOfFields& image, Fields fields) {
   return fields;
 }
 
-/// The state with its images made anew from their originals: what rounding breaks of a symmetry an instability would
-/// feed on. Degrees and quadrature are those of the originals as well.
+/// The state with its images recomputed from their originals, because instabilities would amplify rounding that breaks
+/// the symmetry. Images get degree and quadrature of their originals.
 State with_images(const Exchange& exchange, State state);
 
-/// The degrees of all vesicles with those of the originals for the images.
+/// The degrees of all vesicles, with those of the originals in place of those of images.
 std::vector<int> with_images(const Exchange& exchange, std::vector<int> orders);
 
-/// The symmetries that a scene as a whole has at its start and keeps: every vesicle is its own image, the flow is, and
-/// so is the field up to its sign; and those under which equal vesicles change places, see Exchange. What `auto` finds.
-/// Accuracy: what it finds changes no step by more than 1e-9 (tests/stepping/state/symmetry_test.cpp,
-/// tests/stepping/state/fold_test.cpp), exchanges change no column of a history by more than rounding does
+/// The symmetries of a scene at its start, which it keeps: those under which every vesicle, the flow and, up to its
+/// sign, the field are invariant; and those that exchange equal vesicles, see Exchange. Used for `auto`.
+/// Accuracy: the symmetries found change no step by more than 1e-9 (tests/stepping/state/symmetry_test.cpp,
+/// tests/stepping/state/fold_test.cpp), exchanges change no column of a history by more than rounding
 /// (tests/stepping/exchange_test.cpp)
 Symmetry find_symmetry(const Model& model, const State& state);
 
@@ -52,7 +52,7 @@ Symmetry find_symmetry(const Model& model, const State& state);
 /// @param axes  their names; the third carries the poles
 std::string symmetry_text(const Symmetry& symmetry, const std::array<std::string, 3>& axes = {"x", "y", "z"});
 
-/// The part of the fields that is its own image.
+/// The part of the fields that is invariant under the symmetry.
 SurfaceFields symmetric_part(const SymmetrySubspace& subspace, SurfaceFields fields);
 
 }  // namespace vehd

@@ -10,8 +10,8 @@ namespace vehd {
 
 namespace {
 
-/// From one derivative of a motion to the next, with the time over the step, no more than this is continued: what grows
-/// faster is a jump. Measured.
+/// Largest ratio of successive derivatives with respect to t/dt that is extrapolated: a faster growth is a jump.
+/// Measured.
 constexpr double largest_derivative_ratio = 8.0;
 
 }  // namespace
@@ -46,7 +46,7 @@ NodeSolution Collocation::within(double time) const {
       axpy(weight, nodes_[m].vesicles[a].material, fields);
       axpy(-weight, predicted_[m].vesicles[a].material, fields);
     }
-    // A guess for what is solved anew.
+    // Initial guess of the next solve.
     fields.tension = nodes_.back().vesicles[a].material.tension;
   }
   return result;
@@ -126,7 +126,7 @@ std::vector<VisibleDifference> Collocation::derivatives() const {
   for (int k = 1; k <= static_cast<int>(nodes_.size()); ++k) {
     std::vector<Unknowns> moved(end.vesicles.size());
     add_rates(dt_ * derivative_weights(points_of(rule_), k), rates_, moved);
-    // One after the other: solves of one size share their systems.
+    // One at a time, because solves of one size share their systems.
     const NodeSolution followed =
         solved({&end, std::move(moved), rule_.implicit_sizes.back() * dt_, NodeEnd::material});
     result.push_back(visible_difference(physics_.start(), end, followed));
@@ -136,8 +136,8 @@ std::vector<VisibleDifference> Collocation::derivatives() const {
 
 namespace {
 
-/// Derivative k ≥ 1 of one thing. Those that the points do not tell are the last one continued, each as many times the
-/// one before as those that are known are on average, as in a motion that oscillates or dies away.
+/// Derivative k ≥ 1 of shape or V_m. Beyond the known derivatives the last one is extrapolated with the mean ratio of
+/// the known ones, as in a motion that oscillates or decays.
 double derivative(int k, const std::vector<VisibleDifference>& known, double VisibleDifference::*of) {
   const auto at = [&](int i) { return known[static_cast<std::size_t>(i - 1)].*of; };
   const int last = static_cast<int>(known.size());

@@ -23,7 +23,7 @@ CorrectedNode deferred_correction(StepOperations& physics, double dt, int order)
       y.replace(y.all_corrected(NodeEnd::material));
       continue;
     }
-    // Nodes are independent within a sweep, so the last one alone needs the end of the step.
+    // Nodes are independent within a sweep, and only the last one is needed now.
     NodeSolution corrected = y.corrected(y.last(), NodeEnd::remapped);
     result.last_correction = difference(physics.start(), y.node(y.last()), corrected);
     y.node(y.last()) = std::move(corrected);
@@ -47,7 +47,7 @@ double Corrections::contraction() const {
 
 namespace {
 
-/// Sweeps before a step may end: with one the contraction is not known.
+/// Fewest sweeps of a step: after one the contraction is unknown.
 int fewest_sweeps(int order) { return std::min(2, order - 1); }
 
 double largest_of(const VisibleDifference& error) { return std::max(error.shape, error.potential); }
@@ -57,16 +57,16 @@ struct SweepErrors {
   Corrections visible;  // shape and V_m
   Corrections derived;  // tension and charge, known one sweep later
 
-  /// Relative error of tension and charge over that of shape and V_m, by the last sweep of which both are known.
+  /// Relative error of tension and charge over that of shape and V_m, from the last sweep for which both are known.
   [[nodiscard]] double magnification() const {
     const std::size_t k = derived.count();
     return k > 0 && visible.change(k) > 0.0 ? std::max(1.0, derived.change(k) / visible.change(k)) : 1.0;
   }
-  /// Estimated error after sweep j, made or yet to be made.
+  /// Estimated error after sweep j, past or still to come.
   [[nodiscard]] double after(int sweep) const {
     return magnification() * visible.error_after(static_cast<std::size_t>(sweep));
   }
-  /// After each number of sweeps that a step of this order may have, over the allowed error.
+  /// Estimated error over the allowed one, for each number of sweeps that a step of this order can have.
   [[nodiscard]] std::vector<double> excess(double allowed, int order) const {
     std::vector<double> result;
     for (int j = fewest_sweeps(order); j < order; ++j) result.push_back(after(j) / allowed);
@@ -98,8 +98,8 @@ struct SweptStep {
   const SweepErrors& errors;
   const std::vector<VisibleDifference>& derivatives;  // of the rates
 
-  /// The solution at a time within the step, with the rates at the nodes and, where the error is too large, the rate
-  /// there.
+  /// The solution at a time within the step, corrected with the rates at the nodes and, if its error is too large, once
+  /// more with the rate there.
   [[nodiscard]] Moment at(double time, double allowed) const {
     std::vector<double> points = points_of(rule);
     const double place = (time - start.state.time) / dt;
@@ -107,7 +107,7 @@ struct SweptStep {
     const NodeSolution first = y.within(time);
     NodeSolution second = y.corrected(first, NodeEnd::remapped);
     changes.add(largest_of(visible_difference(start, first, second)));
-    // It contracts like the sweeps.
+    // This correction is assumed to contract like the sweeps.
     const double error =
         std::max(changes.error_after(1, errors.visible.contraction()), rule_error(points, place, derivatives));
     if (error <= allowed) return {std::move(second), error};
@@ -118,7 +118,7 @@ struct SweptStep {
   }
 };
 
-/// Finds the states at the moments of the goal. @returns whether all are exact enough
+/// Finds the states at the moments of the goal. @returns whether all are accurate enough
 bool pass_moments(const SweptStep& step, const StepGoal& goal, ControlledSweeps& result) {
   const double start = step.start.state.time;
   const double allowed = thresholds::moment_share * goal.tolerance / step.errors.magnification();

@@ -7,9 +7,9 @@ namespace vehd {
 
 namespace {
 
-/// Of the spacing of snapshots.
+/// Rounding of multiples of a spacing of snapshots, over the spacing.
 constexpr double rounding = 1e-9;
-/// Of a time that is written as such.
+/// Relative rounding of a time that is listed.
 constexpr double rounding_of_time = 1e-12;
 
 /// Index of the first of k * every that is later than the time.
@@ -30,7 +30,7 @@ std::optional<double> SnapshotTimes::next(double time, double end) const {
   for (const SnapshotWindow& window : windows) {
     const double moment = window.from + std::max(0.0, index_after(time - window.from, window.every)) * window.every;
     const double tolerance = rounding * window.every;
-    // A window that begins at the start has its first snapshot there already.
+    // The start has a snapshot anyway: a window that begins there does not repeat it.
     if (moment - time > tolerance && moment <= window.to + tolerance) consider(moment, tolerance);
   }
   return earliest;

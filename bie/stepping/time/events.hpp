@@ -12,27 +12,26 @@ struct SnapshotWindow {
   double every = 0.0;
 };
 
-/// When snapshots are due after the start and before the end: whenever any of these asks for one, once where several
-/// ask for the same moment.
+/// Times at which snapshots are due after the start and before the end: all times of any member, each once.
 struct SnapshotTimes {
   std::optional<double> every{};  ///< at k * every
   std::vector<double> times{};    ///< ascending
   std::vector<SnapshotWindow> windows{};
 
-  /// The next one after `time`. What is apart from it or from the end by rounding is the same moment.
+  /// The next snapshot after `time`. Times that differ only by rounding from it or from the end count as equal.
   /// @return nullopt if there is none before `end`
-  /// Accuracy: each moment is one product or sum, so that the k-th does not drift
+  /// Accuracy: each time is one product or sum, so that the k-th does not drift
   /// (tests/stepping/time/step_plan_test.cpp)
   [[nodiscard]] std::optional<double> next(double time, double end) const;
-  /// All of them between two times, neither of which is among them.
+  /// All snapshots strictly between two times.
   [[nodiscard]] std::vector<double> between(double from, double to) const;
-  /// Whether one is due at `time`, to rounding.
+  /// Whether a snapshot is due at `time`, to rounding.
   [[nodiscard]] bool is_due(double time, double from, double end) const;
-  /// How many there are until `end`, about: moments that coincide count each.
+  /// Approximate number of snapshots until `end`: times that coincide are counted repeatedly.
   [[nodiscard]] double count(double end) const;
 };
 
-/// The instants at which a step has to end exactly.
+/// Times at which a step must end exactly.
 struct EventTimes {
   SnapshotTimes snapshots;
   double end_time = 0.0;

@@ -92,7 +92,7 @@ double potential_difference(const StepStart& start, std::size_t a, const Surface
          potential_scale(*start.model.electric, start.solved.vesicles[a].membrane->radius, size);
 }
 
-/// The state is a pure number that becomes of the order of one, or a logarithm.
+/// Without a scale: the state of poration is a number of the order of one, or a logarithm.
 double poration_difference(const StepStart& start, std::size_t a, const SurfaceFields& x, const SurfaceFields& y) {
   if (y.poration.size() == 0) return 0.0;
   return largest_value(start.discretisation.vesicle(a).fine_transform(), y.poration - x.poration);

@@ -22,8 +22,8 @@ class PastOfDegree {
   PastOfDegree(const Vector& times, Matrix& past, int degree, Index first, Index count)
       : times_(times), past_(past), degree_(degree), first_(first), count_(count) {}
 
-  /// Keeps the latest times that belong to a smooth motion and replaces the earlier ones by the polynomial through
-  /// them.
+  /// Keeps the values at the latest times that belong to a smooth motion and replaces earlier ones by the polynomial
+  /// through them.
   void smooth() {
     const double ahead = -times_[0];
     Index kept = 1;
@@ -45,7 +45,7 @@ class PastOfDegree {
     const Index n_columns = past_.cols() / times_.size();
     return past_.block(coefficient_index(degree_, -degree_), j * n_columns + first_, 2 * degree_ + 1, count_);
   }
-  /// At x, through now and this many of the latest times.
+  /// Value at x of the polynomial through the present and this many of the latest times.
   [[nodiscard]] Matrix polynomial(Index n_latest, double x) {
     const Vector weights = weights_from_zero(times_.tail(n_latest), x);
     Matrix sum = Matrix::Zero(2 * degree_ + 1, count_);
@@ -73,7 +73,7 @@ Matrix smooth_past(const Vector& times, Matrix past) {
 
 namespace {
 
-/// Of one vesicle.
+/// Past of one vesicle, for messages between ranks.
 struct SentPast {
   Matrix past{};
 };
@@ -138,7 +138,7 @@ void store_past(const StepStart& start, const std::vector<NodeSolution>& nodes, 
     const SphereTransform& fine = start.discretisation.vesicle(a).fine_transform();
     all[a].past = smooth_past(times, GridMove(fine, to.position - from.position, to.position).carried(past));
   });
-  // Images have that of their originals.
+  // Images have no past: they follow the extrapolation of their originals.
   start.discretisation.partition().gather(all, [](const SentPast&, std::size_t) { return SentPast{}; });
   for (std::size_t a = 0; a < all.size(); ++a) state.vesicles[a].past = std::move(all[a].past);
   state.past_times = std::move(times);

@@ -8,7 +8,7 @@
 
 namespace vehd {
 
-/// Result of one attempt at a step. Its work is that of all attempts at the step; once the step is accepted with the
+/// Result of one attempt at a step. Its work is that of all attempts at the step and, once it is accepted, of the
 /// evaluation at its end.
 struct StepAttempt : StepWork {
   bool accepted = false;
@@ -22,9 +22,9 @@ struct StepAttempt : StepWork {
   /// Relative area error that the step would have left without its constraint: a drift of the step's order.
   double raw_area = 0.0;
   std::vector<double> arrival_shifts;  ///< Motion::arrival_shift of each vesicle at its end, when accepted
-  std::vector<State> passed;           ///< at the times asked for within the step
+  std::vector<State> passed;           ///< at the requested times within the step
   double factor = 1.0;                 ///< best size over this one, see ControlledSweeps
-  int rejected = 0;                    ///< attempts before it
+  int rejected = 0;                    ///< earlier attempts at the step
   bool at_snapshot = false;            ///< a snapshot is due at its end
 
   /// Adds the work of the attempts before this one.
@@ -33,10 +33,10 @@ struct StepAttempt : StepWork {
   void reject(const std::string& why);
 };
 
-/// One attempt of size dt and of the order of the settings.
+/// One attempt of size dt and of the order of the settings. If a solve fails, the attempt is rejected with the reason;
+/// nothing is thrown.
 /// @param goal  null without a tolerance
-/// Accuracy: order time_order in dt (tests/stepping/time/time_order_test.cpp); nothing is thrown where a solve fails:
-/// the attempt says why
+/// Accuracy: order time_order in dt (tests/stepping/time/time_order_test.cpp)
 StepAttempt attempt_step(const StepStart& start, double dt, Instruments& instruments, const StepGoal* goal = nullptr);
 
 }  // namespace vehd

@@ -12,21 +12,20 @@ namespace vehd {
 
 namespace {
 
-/// Within so much of a step an event is at its end.
+/// An event within this share of a step from its end is at its end.
 constexpr double step_rounding = 1e-9;
-/// Without a tolerance a step is halved so often at most.
+/// Smallest step without a tolerance, over the largest: ten halvings.
 constexpr double smallest_fraction = 1.0 / 1024.0;
-/// The first step covers this share of the time in which the start changes by the tolerance's root.
+/// The first step covers this share of the time in which the start changes by the root of the tolerance.
 constexpr double first_step_share = 0.5;
-/// Size of the next step over the one that would be just good enough, as in textbooks: the estimate is of the leading
-/// order alone.
+/// Safety factor of the next size, as in textbooks: the estimate is only of leading order.
 constexpr double step_safety = 0.75;
-/// A step changes its size by these factors at most.
+/// Limits of the ratio of successive sizes.
 constexpr double least_step_factor = 0.2, most_step_factor = 4.0;
-/// A step that was not good enough is repeated in this share of its size at most, one whose solves failed in half.
+/// Largest size after an attempt that was not accurate enough, and size after failed solves, over that of the attempt.
 constexpr double most_after_rejection = 0.9, size_after_failure = 0.5;
 
-/// At which a pump charges a membrane without V_m and field, whose potential has no size yet to compare with.
+/// Rate at which a pump charges a membrane without V_m and field, whose V_m has no scale yet; else 0.
 double pumped_rate(const Model& model, const VesicleModel& vesicle, const VesicleState& state) {
   if (!vesicle.pump || !model.electric->field.isZero(0.0) || !state.transmembrane_potential.isZero(0.0)) return 0.0;
   const double series = series_conductivity(electric_parameters(model, vesicle));
@@ -37,7 +36,7 @@ double pumped_rate(const Model& model, const VesicleModel& vesicle, const Vesicl
 double starting_rate(const Model& model, const VesicleModel& vesicle, const VesicleState& state,
                      const VesicleFields& fields, const VesicleSolution& solution) {
   double rate = 0.0;
-  // Degree 0 carries the membrane along and changes nothing of it.
+  // Degree 0 only translates the membrane.
   const Matrix& velocity = fields.velocity;
   if (velocity.size() > 0) rate = velocity.bottomRows(velocity.rows() - 1).norm() / state.radius();
   const Vector& of_potential = solution.rate.transmembrane_potential;
@@ -65,7 +64,7 @@ double first_step(const StepControl& control, int time_order, const Model& model
 StepPlan plan_step(double time, double wanted, const EventTimes& events) {
   StepPlan plan{.wanted = wanted};
   plan.event_time = events.snapshots.next(time, events.end_time).value_or(events.end_time);
-  // A discontinuity within rounding of a snapshot is that snapshot.
+  // A discontinuity that differs from a snapshot only by rounding counts as that snapshot.
   if (events.discontinuity && *events.discontinuity < plan.event_time - step_rounding * wanted) {
     plan.event_time = *events.discontinuity;
     plan.is_snapshot = false;
@@ -107,7 +106,7 @@ void set_next_size(const StepControl& control, const State& start, const StepPla
   if (control.tolerance > 0.0) {
     found = accepted.dt * accepted.factor;
     const double trend = start.dt_found > 0.0 ? std::min(1.0, found / start.dt_found) : 1.0;
-    // A step cut short by an event says little against the size that was wanted before.
+    // A step cut short by an event is no evidence against the size planned before.
     next = std::max(trend * found, found > accepted.dt ? plan.wanted : 0.0);
   }
   accepted.state.dt_next = std::min(control.largest, next);

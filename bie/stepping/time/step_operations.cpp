@@ -20,13 +20,13 @@ namespace vehd {
 
 namespace {
 
-/// A disturbance that relaxes by more than all of it in one explicit step overshoots. The first-order step leaves
-/// explicit the tension under which a disturbance of a sphere relaxes by this share, and holds the rest.
+/// A disturbance that relaxes completely within one explicit step overshoots. The first-order step treats explicitly
+/// the tension under which a disturbance of a sphere relaxes by this share, and the rest implicitly.
 constexpr double relaxation_left_explicit = 0.5;
-/// A potential without a field that is this small over |E|R has decayed: its stress, its square, is below rounding.
+/// A potential without a field below this share of |E|R has decayed: its stress, quadratic in it, is below rounding.
 constexpr double decayed_potential = 1e-10;
 
-/// −λ under which the softest disturbance of a sphere, an ellipsoidal one, is no longer resisted: 3κ_B/R²
+/// Compression −λ that a sphere no longer resists in its softest disturbance, an ellipsoidal one: 3κ_B/R²
 /// (quasi-spherical theory).
 double buckling_compression(const FlowParameters& parameters, double radius) {
   return parameters.bending ? 3.0 * parameters.bending->modulus / (radius * radius) : 0.0;
@@ -38,14 +38,14 @@ FlowOptions flow_options(const FlowParameters& parameters, bool mobile, const Me
   options.curvature_transform = space.curvature_transform();
   options.entries = space.curvature_subspace().scalars();
   if (parameters.inextensible && mobile) {
-    // Under more compression than that the implicit response would push where it should resist.
+    // Under more compression the implicit response would amplify disturbances.
     options.held_tension = membrane.fine.synthesize(tension).col(0).cwiseMax(
         time_order == 1 ? 0.0 : -buckling_compression(parameters, membrane.radius));
   }
   return options;
 }
 
-/// What charging changes.
+/// The unknowns that charging changes.
 Unknowns charge_of(const Unknowns& y) { return {{}, y.transmembrane_potential, y.free_charge, y.poration}; }
 
 }  // namespace
@@ -53,8 +53,8 @@ Unknowns charge_of(const Unknowns& y) { return {{}, y.transmembrane_potential, y
 StepOperations::StepOperations(const StepStart& start, Instruments& instruments)
     : start_(start), instruments_(instruments) {
   const int time_order = start.discretisation.settings().time_order;
-  // The paper's scheme leaves explicit what a change of H does to the tension that is there, which overshoots where
-  // tensions are large, as near the sphere.
+  // The paper's scheme treats the response of the present tension to a change of H explicitly, which overshoots at
+  // large tensions, as near the sphere.
   const double explicit_relaxation = time_order == 1 ? relaxation_left_explicit : 0.0;
   for (std::size_t a = 0; a < start.state.vesicles.size(); ++a) {
     const FlowParameters parameters = flow_parameters(start.model, start.model.vesicles[a]);
@@ -115,7 +115,7 @@ std::vector<NodeSolution> StepOperations::implicit_solves(const std::vector<Impl
   return result;
 }
 
-/// Makes the systems of this size, which threads then only look up.
+/// Makes the systems of this step size, so that threads only look them up.
 void StepOperations::prepare(double dt) {
   if (!start_.model.mobile) return;
   for (const std::size_t a : partition().local_indices(flow_.size())) {
@@ -174,7 +174,7 @@ std::vector<Unknowns> StepOperations::charged(const std::vector<Unknowns>& from,
   if (!start_.model.electric) return reached;
   const auto timer = work.instruments.time("electric");
   if (!charges()) {
-    // Pores close under the V_m that there is, which does not change.
+    // V_m does not change, but pores still close under it.
     for (std::size_t a = 0; a < from.size(); ++a) {
       if (!start_.model.vesicles[a].reaction) continue;
       reached[a].poration =
@@ -209,7 +209,7 @@ void StepOperations::take(Unknowns charged, double time, std::size_t a, SurfaceF
   fields.poration = std::move(charged.poration);
 }
 
-/// A potential this small does nothing any more, and without it the electric part becomes inactive.
+/// Sets a decayed potential to zero, so that the electric part becomes inactive.
 void StepOperations::forget_decayed(double time, std::size_t a, Vector& potential) const {
   if (start_.model.vesicles[a].pump) return;
   const double scale = start_.model.electric->field.norm() * start_.solved.vesicles[a].membrane->radius;
@@ -221,7 +221,7 @@ State StepOperations::end_state(const NodeSolution& node) const {
   State state = state_at(start_, node);
   std::vector<SentScalars> flow(state.vesicles.size());
   for (const std::size_t a : partition().local_indices(flow.size())) flow[a] = SentScalars{flow_[a].recycled()};
-  // What is known of images serves nobody.
+  // Recycled subspaces of images are not used, so they are not sent.
   partition().gather(flow, [](const SentScalars&, std::size_t) { return SentScalars{}; });
   for (std::size_t a = 0; a < state.vesicles.size(); ++a) {
     state.vesicles[a].recycled = after_step(start_.solved.vesicles[a].recycled, flow[a].known, work_.iterations_flow);
@@ -231,7 +231,7 @@ State StepOperations::end_state(const NodeSolution& node) const {
 
 namespace {
 
-/// A motion with the iterations that it took, or why there is none.
+/// A motion with its iterations, or the reason why it failed.
 struct CountedMotion {
   Motion motion;
   int iterations = 0;
@@ -262,7 +262,7 @@ std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& star
     try {
       for_each_member(partition().local_indices(all.size()), work.instruments, move);
     } catch (const ConvergenceError&) {
-      // Which vesicle is the first without a motion all ranks have to say.
+      // Thrown below, where all ranks know the first vesicle that failed.
     }
     partition().gather(all, [this](const CountedMotion& of_original, std::size_t a) -> CountedMotion {
       const ImageOfFields& image = start_.discretisation.symmetry().exchange.image(a);
@@ -273,7 +273,7 @@ std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& star
   });
   std::vector<Motion> result;
   for (CountedMotion& of_one : all) {
-    // Those of solves that fail count all the same.
+    // Iterations of failed solves count as well.
     work.counted.iterations_flow += of_one.iterations;
     if (!of_one.failure.empty()) throw ConvergenceError(of_one.failure);
     result.push_back(std::move(of_one.motion));

@@ -10,7 +10,7 @@
 
 namespace vehd {
 
-/// A step of the paper's semi-implicit scheme from the start of a step.
+/// A step of the paper's semi-implicit scheme from the start of the current step.
 struct FirstOrderStep {
   double dt;
   NodeEnd end;
@@ -38,17 +38,15 @@ struct StepWork {
   }
 };
 
-/// The physics as a time scheme sees it during one step, with the operators at its start frozen. Four operations make
-/// every scheme:
+/// The physics of one step, with the operators frozen at its start. Every scheme consists of four operations:
 ///
-/// - rate: F(y), everything solved anew at y;
-/// - implicit solve: (1 − dt L)⁻¹ with the stiff part L of F at the start, bending and tension by (27) and (28), the
-///   charging of the membranes by (30), of those that porate together with what makes them conduct, which is not
-///   linear;
-/// - projection: each solve is repeated for what it leaves until area elements, areas and volumes hold;
-/// - remap: the end of the step on nodes that keep the grid good.
+/// - rate: F(y), all fields solved at y;
+/// - implicit solve: (1 − dt L)⁻¹ with the stiff part L of F at the start: bending and tension by (27) and (28),
+///   charging by (30), for membranes that porate together with their conductance, which is nonlinear;
+/// - projection: each solve is repeated for its remaining error until area elements, areas and volumes hold;
+/// - remap: the fields at the end of the step are moved to nodes that keep the grid good.
 ///
-/// L contains each membrane's bending and tension on itself, and the charging of all on all: the hydrodynamic
+/// L contains bending and tension of each membrane acting on itself, and the coupled charging of all: the hydrodynamic
 /// interaction of membranes is smooth and enters through F.
 ///
 /// Solving and projecting are one iteration, since errors of area and volume that a remap causes are projected out as
@@ -74,8 +72,7 @@ class StepOperations {
   /// Corrections of several nodes, see ImplicitSolve.
   /// @param solves  of different sizes
   std::vector<NodeSolution> implicit_solves(const std::vector<ImplicitSolve>& solves);
-  /// The state at the end of the step, from a node that is remapped, with the subspaces that the solves have found;
-  /// collective.
+  /// State at the end of the step, from a remapped node, with the recycled subspaces of the solves; collective.
   [[nodiscard]] State end_state(const NodeSolution& node) const;
 
   [[nodiscard]] const StepWork& work() const { return work_; }
@@ -86,7 +83,7 @@ class StepOperations {
     Instruments& instruments;
     StepWork& counted;
   };
-  /// Calls body(i, work) for each of so many nodes, on threads where these are small.
+  /// Calls body(i, work) for `count` nodes, side by side on threads if the operators are small.
   template <typename Body>
   void for_each_node(std::size_t count, const Body& body);
   [[nodiscard]] Rate rate(const NodeSolution& node, NodeWork& work) const;
@@ -105,8 +102,8 @@ class StepOperations {
   [[nodiscard]] const Partition& partition() const { return start_.discretisation.partition(); }
   [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end, Instruments& instruments) const;
   using RigidMotion = std::function<SphereMotion(std::size_t vesicle, const Membrane& sphere)>;
-  /// Solves and projects all vesicles, each on its rank; V_m of the start is that of the end. Collective.
-  /// @param rigid  the motion of a sphere, which takes the place of the start's velocity there
+  /// Solves and projects all vesicles, each on its rank; V_m of `starts` is already that of the end. Collective.
+  /// @param rigid  motion of a sphere, which replaces the velocity of its start
   std::vector<Motion> motions(const std::vector<MotionStart>& starts, const RigidMotion& rigid, double dt, NodeEnd end,
                               NodeWork& work);
   /// The motion of one vesicle; others may be moved at the same time.

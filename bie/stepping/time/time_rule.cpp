@@ -33,7 +33,7 @@ namespace {
 
 double power_of(double x, Index k) { return k == 0 ? 1.0 : std::pow(x, static_cast<double>(k)); }
 
-/// Those with which Σ_j w_j x_j^k is the kth moment.
+/// Weights w with Σ_j w_j x_j^k equal to the kth moment.
 Vector weights_of_moments(const std::vector<double>& points, const Vector& moments) {
   Matrix powers(moments.size(), moments.size());
   for (Index k = 0; k < moments.size(); ++k) {

@@ -10,16 +10,16 @@ namespace vehd {
 struct TimeRule {
   std::vector<double> nodes;  ///< c_1 < … < c_M = 1
   Matrix weights;             ///< q_mj of ∫_0^{c_m} over the points 0, c_1, …, c_M, [M x M+1]
-  /// d_m: a correction at node m is an implicit step of size d_m. They make I − D⁻¹Q nilpotent: what is infinitely
-  /// stiff is settled after M sweeps, while steps of the sizes c_m leave a part of it (0.67 for M = 2) at every sweep.
+  /// d_m: a correction at node m is an implicit step of size d_m. They make I − D⁻¹Q nilpotent: infinitely stiff
+  /// components converge in M sweeps, while the sizes c_m leave a part of them (0.67 for M = 2) at every sweep.
   std::vector<double> implicit_sizes;
 };
 
 /// Order 1: the implicit Euler method. Order 2: the trapezoidal rule. Order 3: Radau IIA with two nodes. Orders 4 and
-/// 5: Radau IIA with three, whose own order is 5. Radau methods forget what is infinitely stiff within the step.
+/// 5: Radau IIA with three, whose own order is 5. Radau methods remove infinitely stiff components within the step.
 /// @param order  1 … highest_time_order
-/// Accuracy: polynomials are integrated to 1e-14 up to the degree of the rule, and M sweeps settle what is infinitely
-/// stiff to 1e-13 (tests/stepping/time/time_rules_test.cpp)
+/// Accuracy: polynomials are integrated to 1e-14 up to the degree of the rule, and infinitely stiff components converge
+/// in M sweeps to 1e-13 (tests/stepping/time/time_rules_test.cpp)
 /// Source: Radau IIA methods, Hairer and Wanner 1996; sizes as in van der Houwen and Sommeijer 1991
 TimeRule time_rule(int order);
 
@@ -30,7 +30,7 @@ std::vector<double> points_of(const TimeRule& rule);
 /// Accuracy: 1e-13 for polynomials of its degree (tests/stepping/time/time_rules_test.cpp)
 Vector integration_weights(const std::vector<double>& points, double c);
 
-/// Weights at x of values at these places for the polynomial through them that is zero at x = 0, [number of places].
+/// Weights at x of values at these places for the polynomial through them and zero at x = 0, [number of places].
 /// @param places  not zero
 /// Accuracy: 1e-13 for polynomials of its degree (tests/stepping/time/time_rules_test.cpp)
 Vector weights_from_zero(const Vector& places, double x);
@@ -39,7 +39,7 @@ Vector weights_from_zero(const Vector& places, double x);
 double integration_error(const std::vector<double>& points, double c, int power);
 
 /// Weights of values at these points for a derivative of the polynomial through them, at the mean of the points,
-/// where the highest two are most exact, [number of points].
+/// where the highest two are most accurate, [number of points].
 /// Accuracy: 1e-12 for polynomials of its degree (tests/stepping/time/time_rules_test.cpp)
 Vector derivative_weights(const std::vector<double>& points, int derivative);
 
