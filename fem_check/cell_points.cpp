@@ -44,7 +44,7 @@ void FaceSums::reinit(unsigned face, const Eigen::Matrix2Xd& points) {
   const auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& known) {
     return known.points.cols() == points.cols() && known.points == points;
   });
-  now_ = static_cast<std::size_t>(found - known_.begin());
+  selected_ = static_cast<std::size_t>(found - known_.begin());
   if (found == known_.end()) known_.push_back({points, face_shape(n_line_ - 1, points)});
 }
 
@@ -63,7 +63,7 @@ FaceSums::Fields FaceSums::operator()(const Eigen::MatrixXd& nodal) const {
       for (int l = 0; l < n_line_; ++l) slope.col(node) += end_slope_[end][l] * nodal.col(number(l));
     }
   }
-  const FaceShape& shape = known_[now_].shape;
+  const FaceShape& shape = known_[selected_].shape;
   Fields result;
   result.value = value * shape.value.transpose();
   result.derivative[axis] = slope * shape.value.transpose();

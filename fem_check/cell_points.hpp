@@ -33,7 +33,7 @@ class FaceSums {
   std::vector<unsigned> number_;     // of the node at each lattice position, first coordinate fastest
   std::array<Vector, 2> end_slope_;  // derivatives of the nodal functions of a line at its ends
   std::vector<Known> known_;         // few sets of points occur
-  std::size_t now_ = 0;              // index of the selected one
+  std::size_t selected_ = 0;         // index of the selected one
   unsigned face_ = 0;
 };
 

@@ -34,7 +34,7 @@ Cell with_replaced(Cell cell, int vertex, int by) {
 }
 
 /// Six times the volume over the cube of the root mean square edge length: smooth, and small if the cell is flat.
-double flatness(const std::array<Point, 4>& x) {
+double regularity(const std::array<Point, 4>& x) {
   Matrix3 edges;
   for (int k = 0; k < 3; ++k) edges.col(k) = x[k + 1] - x[0];
   double squares = 0.0;
@@ -82,7 +82,7 @@ void cut_edge(const std::array<int, 2>& edge, std::vector<Cell>& cells, std::vec
     vertices[fresh] = middle + (2.0 * trial / kTrials) * (centre - middle);
     double value = std::numeric_limits<double>::max();
     for (const Cell& c : halves) {
-      value = std::min(value, flatness({vertices[c[0]], vertices[c[1]], vertices[c[2]], vertices[c[3]]}));
+      value = std::min(value, regularity({vertices[c[0]], vertices[c[1]], vertices[c[2]], vertices[c[3]]}));
     }
     if (value <= best_value) continue;
     best_value = value;

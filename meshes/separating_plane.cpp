@@ -27,7 +27,7 @@ SeparatingPlane separating_plane(const FrozenShape& first, const FrozenShape& se
     shortest += std::clamp(-shortest.dot(way) / way.squaredNorm(), 0.0, 1.0) * way;
   }
   if (best.width > nothing) return best;
-  throw MeshError("no plane separates the two membranes, and the blocks about them meet on one");
+  throw MeshError("no plane separates the two membranes, but the blocks of the mesh need one");
 }
 
 }  // namespace vehd::meshes

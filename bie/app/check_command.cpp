@@ -55,7 +55,9 @@ ExitCode check(const CheckOptions& options) {
                  .n_ranks = options.ranks};
   for (const std::string& note : task.frozen.notes) fmt::print(stderr, "{}\n", note);
   if (options.from) task.span = read_time_span(options.scene.source.file, *options.from, task.frozen);
-  task.tell = [first = true](const CheckFields& fields) mutable { print_solved(fields, std::exchange(first, false)); };
+  task.on_solved = [first = true](const CheckFields& fields) mutable {
+    print_solved(fields, std::exchange(first, false));
+  };
   std::filesystem::remove(differences_file(task.directory));
   const FemProgram::Result result = compare_methods(fem, task);
   if (!result.json.is_null()) write_json(options.common, result.json);

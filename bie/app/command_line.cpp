@@ -33,7 +33,7 @@ void send_messages_to_standard_error() {
 }
 
 /// Silences this rank: only the first rank prints.
-void fall_silent() {
+void silence_this_rank() {
   spdlog::set_level(spdlog::level::off);
   for (std::FILE* stream : {stdout, stderr}) {
     if (std::freopen("/dev/null", "w", stream) == nullptr) throw OutputError("/dev/null cannot be opened");
@@ -105,7 +105,7 @@ void write_json(const CommonOptions& options, const nlohmann::json& result) {
 int run_program(int argc, char** argv, const Ranks& ranks) {
   keep_freed_memory();
   send_messages_to_standard_error();
-  if (!ranks.is_first()) fall_silent();
+  if (!ranks.is_first()) silence_this_rank();
   CLI::App program("Simulates a lipid vesicle in viscous flow and electric field by boundary integral equations.",
                    "vehd");
   program.set_version_flag("--version", version_text(), "Print the versions of the program and its libraries");

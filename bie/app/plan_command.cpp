@@ -164,7 +164,7 @@ ExitCode plan(const PlanOptions& options) {
   print(result);
   write_json(options.common, json_of(result));
   if (result.stops.empty()) return ExitCode::done;
-  return does_not_hold(options, fmt::format(": {}; {}", result.stops, what_may_help(scene.numerics)));
+  return does_not_hold(options, fmt::format(": {}; {}", result.stops, advice_after_failure(scene.numerics)));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ std::string next_step(const RunOptions& options, const Scene& scene, const RunOu
       fmt::format("vehd run {} -o {} --resume", options.scene.text(), shell_word(directory_of(options).string()));
   if (!outcome.cannot_step) return "continue with: " + command;
   return fmt::format("unchanged it would stop there again: {} of {}, then continue with: {}",
-                     what_may_help(scene.numerics), options.scene.source.file.string(), command);
+                     advice_after_failure(scene.numerics), options.scene.source.file.string(), command);
 }
 
 void print_summary(const nlohmann::json& summary, const RunPaths& paths) {

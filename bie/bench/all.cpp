@@ -17,11 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is measured, in full and as a trial.
+/// Extent of the benches, in full and as a trial.
 struct Extent {
   std::vector<int> space, parts, symmetry;
   int threads_order;  ///< 0: that of the scene
-  int time_order;     ///< degree of the comparison of integrators, likewise
+  int time_order;     ///< degree for the comparison of integrators; 0: that of the scene
   int n_steps;        ///< step sizes
   std::vector<double> tolerances;
   int repeats;
@@ -39,14 +39,14 @@ Extent extent_of(bool quick) {
           9};
 }
 
-/// Successive halves.
+/// Step sizes, each half of the one before.
 std::vector<double> steps_from(double first, int count) {
   std::vector<double> steps{first};
   while (static_cast<int>(steps.size()) < count) steps.push_back(0.5 * steps.back());
   return steps;
 }
 
-/// One row for each scene: its largest error over the tolerance, and the steps, degree and seconds of every second
+/// One row for each scene: its largest error over the tolerance, and the steps, degree and seconds for every second
 /// tolerance. The last tolerance is the reference.
 /// @param rows  of all scenes, one for each tolerance
 BenchTable scenes_table(const BenchTable& rows, std::size_t n_tolerances) {
@@ -77,7 +77,7 @@ BenchTable scenes_table(const BenchTable& rows, std::size_t n_tolerances) {
   return table;
 }
 
-/// The whole of what bench all does, one bench after the other.
+/// Runs all benches one after the other and renews the pages.
 class AllBenches {
  public:
   AllBenches(const AllTask& task, BenchObserver& observer)
@@ -85,7 +85,7 @@ class AllBenches {
     scenes_ = scene_files(task.docs / "scenes");
     make_directory(task.output.directory);
     make_directory(task.docs / "images");
-    wanted_ = wanted_tables(task.docs);
+    wanted_ = tables_in_pages(task.docs);
   }
 
   nlohmann::ordered_json run() {
@@ -120,7 +120,7 @@ class AllBenches {
     }
   }
 
-  /// Where a page shows it.
+  /// Replaces the picture of a table on the pages that show it.
   void keep_picture(const std::string& name) {
     const std::string picture = "bench_" + name + ".png";
     if (!task_.output.plot || !pages_mention(task_.docs, "images/" + picture)) return;

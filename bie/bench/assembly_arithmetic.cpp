@@ -14,7 +14,7 @@ namespace {
 
 double product(double rows, double inner, double columns) { return 2.0 * rows * inner * columns; }
 
-/// Wigner rotation of so many columns of coefficients, or its adjoint.
+/// Operations of the Wigner rotation of these columns of coefficients, or of its adjoint.
 double rotation(int order, int azimuthal_order, const FourierColumns& columns, const std::array<bool, 2>& degrees) {
   const auto cosines = static_cast<double>(columns.cosine.size());
   const auto sines = static_cast<double>(columns.sine.size());
@@ -27,7 +27,7 @@ double rotation(int order, int azimuthal_order, const FourierColumns& columns, c
   return operations;
 }
 
-/// Legendre sums on a hemisphere of the rotated grid, or their adjoint; a column has cosines or sines.
+/// Operations of Legendre sums on a hemisphere of the rotated grid, or of their adjoint; columns of cosines or sines.
 double legendre_sums(const RotatedQuadrature& quadrature, double columns, const std::array<bool, 2>& degrees) {
   const double hemisphere = (quadrature.n_theta + 1) / 2;
   double operations = 0.0;
@@ -39,13 +39,13 @@ double legendre_sums(const RotatedQuadrature& quadrature, double columns, const 
   return operations;
 }
 
-/// Sums over the azimuth, even and odd orders apart on a quarter of it, or their adjoint.
+/// Operations of the azimuthal sums, even and odd orders separately on a quarter of the circle, or of their adjoint.
 double fourier_sums(const RotatedQuadrature& quadrature, double columns, double n_latitudes) {
   const double quarter = quadrature.n_phi / 4;
   return product(quarter, quadrature.order + 1, n_latitudes * columns);
 }
 
-/// Kernel values at one node.
+/// Operations of the kernel values at one node.
 double kernel_values(const KernelColumns& kernels) {
   constexpr double kDistance = 10.0, kAreaVector = 14.0, kArea = 7.0;
   constexpr double kSingle = 2.0, kDouble = 5.0, kAdjoint = 10.0, kStokeslet = 26.0, kStresslet = 24.0;
@@ -61,7 +61,7 @@ double kernel_values(const KernelColumns& kernels) {
   return operations;
 }
 
-/// From kernel rows to the matrices of the operators, over longitudes and then over latitudes.
+/// Operations from kernel rows to the matrices of the operators, over longitudes and then over latitudes.
 double analysis(const TargetSweep& sweep, const SphereTransform& transform, const SymmetrySubspace& subspace,
                 bool turned) {
   const SphereGrid& grid = transform.grid();
@@ -72,7 +72,7 @@ double analysis(const TargetSweep& sweep, const SphereTransform& transform, cons
     const KernelColumns& kernels = sweep.kernels();
     const auto n_active = static_cast<double>(sweep.active().count());
     operations = n_latitudes * product(2 * azimuthal_order + 1, grid.n_phi / 4 + 1, kernels.count * n_active);
-    // Of the Stokes single layer densities of no higher degree than that of what finds them.
+    // Symmetric Stokes blocks need only densities of at most the degree n of the result.
     const double n_symmetric = kernels.has_symmetric_stokes() ? SymmetricBlocks::kBlocks : 0.0;
     double n_up_to = 0.0;
     for (int n = 0; n <= transform.order(); ++n) {

@@ -7,9 +7,8 @@
 
 namespace vehd {
 
-/// Floating-point operations of one assembly: its matrix products, a multiplication and an addition each counting one,
-/// and its kernels, where a square root or a division counts one as well. Arguments as in
-/// assemble_symmetric_operators.
+/// Floating-point operations of one assembly: matrix products, a multiplication and an addition counting one each, and
+/// kernels, where a square root or a division also counts one. Arguments as in assemble_symmetric_operators.
 /// Accuracy: a count of the loops as they are written; between orders 4.3 and 5 in p
 /// (tests/bench/assembly_arithmetic_test.cpp)
 double operations_per_assembly(const RotatedQuadrature& quadrature, const SphereTransform& transform,

@@ -90,7 +90,7 @@ Example1Result solve_example1(int order, int upsampling, double tolerance) {
 
 namespace {
 
-/// Any rotation without symmetry.
+/// An arbitrary rotation without symmetry.
 Matrix3 rotated_frame() {
   return (Eigen::AngleAxisd(0.7, Vector3::UnitX()) * Eigen::AngleAxisd(1.1, Vector3::UnitY()) *
           Eigen::AngleAxisd(0.4, Vector3::UnitZ()))

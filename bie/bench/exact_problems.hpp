@@ -10,32 +10,32 @@
 
 namespace vehd {
 
-/// A problem with a known answer, solved at one degree.
+/// Solution of a problem with a known answer at one degree.
 struct SolvedProblem {
   double error = 0.0;          ///< relative to the largest value of the field
-  double seconds = 0.0;        ///< tables of the degree excluded, as every solution but the first takes
+  double seconds = 0.0;        ///< without tables of the degree, as for every solution but the first
   double first_seconds = 0.0;  ///< tables included
 };
 
 /// A problem with a known answer that can be solved at any degree.
 struct ExactProblem {
-  std::string field;  ///< whose error it is
+  std::string field;  ///< name of the field with this error
   std::function<SolvedProblem(int degree)> solve;
 };
 
-/// The lowest degree that is enough for an error.
+/// The lowest degree that reaches an error.
 struct DegreeOfError {
   int degree = 0;
   double error = 0.0;  ///< at this degree
 };
 
 /// The lowest degree from lowest to highest at which the error is at most `error`, by bisection; nothing if the highest
-/// is not enough. Where errors do not fall from degree to degree the result is enough and the degree below is not.
+/// is not enough. If errors do not fall monotonically, the result is enough and the degree below it is not.
 /// @param lowest  ≥ 1
 std::optional<DegreeOfError> degree_of_error(const ExactProblem& problem, double error, int lowest, int highest);
 
-/// Most memory that a solution takes beyond what the process held before, see MemoryMeter; nothing where the system
-/// does not say.
+/// Peak memory of a solution beyond what the process held before, see MemoryMeter; nothing if the system does not
+/// report it.
 std::optional<std::int64_t> memory_of(const std::function<void()>& solve);
 
 /// Example 1 of the paper: Eq. (35) on shape (33) with σ_i = 2, σ_e = 1 and six point sources.
@@ -47,12 +47,12 @@ struct Example1Result {
   double first_seconds = 0.0;  ///< tables included
 };
 
-/// @param upsampling  of the grid on which products are formed and errors taken; 1 as in the paper: the 2(p+1)² nodes
-/// @param tolerance   of the solve, relative
+/// @param upsampling  of the grid for products and errors; 1 as in the paper: the 2(p+1)² nodes
+/// @param tolerance   relative tolerance of the solve
 /// @throws ConvergenceError if the solve does not converge
 Example1Result solve_example1(int order, int upsampling = 1, double tolerance = 1e-10);
 
-/// Results of the example.
+/// Point sources of the example.
 std::vector<PointSource> example1_sources();
 /// Conductivities of the example: σ_i = 2, σ_e = 1.
 ElectricParameters example1_electric();
@@ -60,9 +60,9 @@ ElectricParameters example1_electric();
 /// Source: paper Eq. (33)
 Matrix example1_position(int order);
 
-/// A 2:1 prolate pulled through a viscous fluid along and across its axis: the Stokes single layer on a density with
-/// known velocity. The error is the largest over the nodes and both directions, over the speed. The poles of the grid
-/// are off the axis of the prolate, which nothing but the truncation can see.
+/// A 2:1 prolate pulled through a viscous fluid along and across its axis: the Stokes single layer of a density with
+/// known velocity. The error is the maximum over the nodes and both directions, relative to the speed. The poles of the
+/// grid are off the axis of the prolate, which affects only the truncation.
 /// Source: Kim and Karrila 1991, see ProlateSpeeds
 SolvedProblem solve_translating_prolate(int order);
 

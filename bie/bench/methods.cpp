@@ -19,7 +19,7 @@
 namespace vehd {
 namespace {
 
-/// A sequence of ever finer solutions by one method.
+/// A sequence of successively finer solutions by one method.
 struct MethodCurve {
   std::string name;   ///< in the CSV and the JSON
   std::string label;  ///< in the table and the picture
@@ -29,9 +29,9 @@ struct MethodCurve {
 struct MethodLevel {
   MethodCurve curve;
   int degree = 0;          ///< of the harmonics, or of the elements
-  int cells_per_edge = 0;  ///< of a block of the mesh; 0 without a mesh
+  int cells_per_edge = 0;  ///< per edge of a block of the mesh; 0 without a mesh
   std::int64_t unknowns = 0;
-  std::vector<double> seconds;  ///< of the processor, from the shape to the fields on γ; each repeat
+  std::vector<double> seconds;  ///< processor time of each repeat, from the shape to the fields on γ
   std::optional<std::int64_t> peak_memory_bytes;
   MethodError first, second;  ///< of q and f_E, or of v and λ
 };
@@ -40,20 +40,20 @@ const MethodCurve bie{"bie", "BIE, degree p rises"};
 const MethodCurve fem_degree{"fem_degree", "FEM, degree k rises"};
 const MethodCurve fem_mesh{"fem_mesh", "FEM, mesh refined, k = 2"};
 
-/// Cells per edge of a block where the degree rises.
+/// Cells per edge of a block when the degree rises.
 constexpr int coarse_cells = 3;
 
-/// Outer sphere over the radius of the shape; the second one shows what the first leaves out.
+/// Radius of the outer sphere over that of the shape; the second one shows the error of cutting off at the first.
 constexpr double near_radius = 8.0, far_radius = 16.0;
-/// Highest degree of the comparison of both.
+/// Highest degree of the comparison of these two.
 constexpr int highest_far_degree = 5;
 
 struct LevelPlan {
   std::vector<int> orders;                ///< p
   std::vector<int> element_degree;        ///< k on the coarse mesh
   std::vector<int> cells_per_edge;        ///< at the lowest of these degrees
-  std::vector<int> element_degree_shape;  ///< k where everything is found from the shape
-  int reference_order;                    ///< of that
+  std::vector<int> element_degree_shape;  ///< k when all fields are found from the shape
+  int reference_order;                    ///< degree of the reference for these
 };
 
 LevelPlan plan_of(bool quick) {
@@ -61,17 +61,17 @@ LevelPlan plan_of(bool quick) {
   return {{8, 12, 16, 20, 24, 32}, {2, 3, 4, 5, 6, 7}, {2, 3, 4, 6, 8, 12}, {3, 4, 5, 6, 7}, 48};
 }
 
-/// What either method solves.
+/// The problem that both methods solve.
 struct MethodsProblem {
   const char* name;            ///< subcommand of the finite elements
   const char *first, *second;  ///< names of the fields in their result
 };
 constexpr MethodsProblem sources_problem{"sources", "q", "force"}, shape_problem{"shape-flow", "velocity", "tension"};
 
-/// Boundary integrals of one degree.
+/// Timed boundary-integral solution at one degree.
 /// @param n_scalars  unknown fields of its solves
-/// @param solve      is timed
-/// @param errors_of  both errors of what it returns; not timed
+/// @param solve      timed
+/// @param errors_of  both errors of the result of `solve`; not timed
 template <typename Solve, typename ErrorsOf>
 MethodLevel integral_level(int order, int n_scalars, int repeats, const Solve& solve, const ErrorsOf& errors_of) {
   MethodLevel level;
@@ -107,10 +107,10 @@ MethodLevel shape_level(const ShapeFlowProblem& problem, int order, int repeats)
       });
 }
 
-/// Runs the levels of finite elements; each is a process of its own.
+/// Runs the levels of finite elements, each in a separate process.
 class FemLevels {
  public:
-  /// @param input  file of the problem, gone at the end
+  /// @param input  file of the problem, deleted at the end
   FemLevels(const MethodsProblem& problem, std::filesystem::path input) : problem_(problem), input_(std::move(input)) {}
 
   double outer_radius = 0.0;
@@ -189,7 +189,7 @@ std::vector<BenchCell> row_of(const MethodLevel& level) {
           level.second.max};
 }
 
-/// What everything that a step solves for costs, from the shape.
+/// Cost of all fields that a step solves for, from the shape.
 BenchTable from_shape_table(const LevelPlan& plan, int repeats, const std::filesystem::path& folder, BenchTasks& tasks,
                             BenchObserver& observer) {
   tasks.next(fmt::format("boundary integrals, p = {}, as the exact solution", plan.reference_order));
@@ -212,7 +212,7 @@ BenchTable from_shape_table(const LevelPlan& plan, int repeats, const std::files
 }  // namespace
 
 BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& folder, BenchObserver& observer) {
-  // Either method has one core, and its processor time counts: other programs on the machine then do not.
+  // Each method has one core, and its processor time is measured: other programs on the machine do not matter.
   const ThreadCount one_thread(1);
   const LevelPlan plan = plan_of(task.quick);
   const int shape_order = plan.orders.back();
@@ -232,7 +232,6 @@ BenchResult bench_methods(const MethodsTask& task, const std::filesystem::path& 
                    observer);
   observer.heading(table);
   const auto keep = [&](const MethodLevel& level) { add_row(table, row_of(level), observer); };
-  // Peak memory is that of the process so far: ascending orders make it that of the level.
   for (const int order : plan.orders) {
     tasks.next(fmt::format("boundary integrals, p = {}", order));
     keep(sources_level(order, task.repeats));

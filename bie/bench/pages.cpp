@@ -49,7 +49,7 @@ int put_table(const std::filesystem::path& folder, const std::string& name, cons
   return count;
 }
 
-std::set<std::string> wanted_tables(const std::filesystem::path& folder) {
+std::set<std::string> tables_in_pages(const std::filesystem::path& folder) {
   std::set<std::string> names;
   const std::string begin = kBegin;
   for (const auto& page : pages_of(folder)) {
@@ -74,7 +74,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view hidden = "<!-- sh: ", end_of_hidden = " -->";
 
-/// Links to what a reader of the pages has around.
+/// Creates links to the parts of the source tree that commands of the pages use.
 void imitate_source_tree(const fs::path& folder, const fs::path& docs) {
   make_directory(folder / "build");
   fs::create_symlink(fs::read_symlink("/proc/self/exe"), folder / "build/vehd");
@@ -83,7 +83,7 @@ void imitate_source_tree(const fs::path& folder, const fs::path& docs) {
   if (fs::is_directory(tests)) fs::create_directory_symlink(tests, folder / "tests");
 }
 
-/// What is wrong; empty if nothing is.
+/// The error of a command; empty if there is none.
 std::string failure_of(const std::string& command, const fs::path& folder) {
   const fs::path messages = folder / "messages";
   const ChildEnd end = run_child({{"sh", "-c", command}, messages, folder});

@@ -62,7 +62,7 @@ std::vector<std::string> BenchRecord::different(const std::string& column) const
 
 namespace {
 
-/// Columns of a curve, and the rows that are its own.
+/// Columns of a curve, and the column and the value that select its rows.
 struct CurveColumns {
   std::string x, y, key{}, value{}, note{};
 };
@@ -79,7 +79,7 @@ BenchCurve curve_of(const BenchRecord& record, const std::string& label, const C
 
 std::vector<BenchPanel> space_panels(const BenchRecord& record) {
   BenchPanel seconds{"seconds", "relative error, maximum over the nodes"};
-  // q and f_E have the same seconds: notes at the upper curve do for both.
+  // q and f_E have the same seconds, so notes at the upper curve are enough.
   seconds.curves = {curve_of(record, "q, Example 1", {"seconds", "error_q"}, 0),
                     curve_of(record, "f_E, Example 1", {"seconds", "error_force", "", "", "order"}, 1),
                     curve_of(record, "v, prolate", {"seconds_velocity", "error_velocity", "", "", "order"}, 2)};
@@ -91,7 +91,7 @@ std::vector<BenchPanel> space_panels(const BenchRecord& record) {
   return {seconds, degree};
 }
 
-/// Order of an integrator by its name, "order 4"; 0 of a tolerance or a reference.
+/// Order of an integrator from its name, "order 4"; 0 for a tolerance or a reference.
 int order_of_integrator(const std::string& name) {
   const std::string start = "order ";
   return name.starts_with(start) ? std::stoi(name.substr(start.size())) : 0;
@@ -102,9 +102,9 @@ bool has_points(const BenchCurve& curve) {
 }
 
 std::vector<BenchPanel> time_panels(const BenchRecord& record) {
-  // Its further tables are no curves.
+  // Further tables of this bench have no curves.
   if (!record.has("steps")) return {};
-  // Errors of the steps alone: files of earlier programs do not have them.
+  // Errors of the steps only, which files of earlier versions lack.
   const bool apart = record.has("error_in_time");
   const std::string error = apart ? "error_in_time" : "error";
   BenchPanel seconds{"seconds", "largest relative error"};
@@ -118,7 +118,7 @@ std::vector<BenchPanel> time_panels(const BenchRecord& record) {
     if (has_points(in_seconds)) seconds.curves.push_back(std::move(in_seconds));
     if (!has_points(in_steps)) continue;
     const int order = order_of_integrator(integrator);
-    // Few steps lie between two powers of ten.
+    // The numbers of steps span few powers of ten, so they give the ticks.
     if (order > 0 && steps.x_ticks.empty()) steps.x_ticks = in_steps.x;
     if (order > 0 && (apart || order <= 2)) {
       steps.slopes.push_back(slope_beside(in_steps, -order, fmt::format("N^{{\u2212{}}}", order), 0.45));
@@ -142,7 +142,7 @@ std::vector<BenchPanel> parts_panels(const BenchRecord& record) {
   for (const std::string& column : record.columns()) {
     if (!column.starts_with(start) || !record.has(column + "_min")) continue;
     const std::string part = column.substr(start.size());
-    // The whole step is above all its parts, in memory hardly above the largest.
+    // The whole step lies above all its parts in seconds, and hardly above the largest in memory.
     const CurveKind kind = part == "step" ? CurveKind::wide : CurveKind::line;
     seconds.curves.push_back(curve_of(record, with_spaces(part), {"order", column}, colour, kind));
     BenchCurve bytes = curve_of(record, with_spaces(part), {"order", "bytes_" + part}, colour, kind);

@@ -14,9 +14,9 @@ namespace vehd {
 namespace {
 
 constexpr std::array colours{"#1f5fa8", "#c0392b", "#2c8a3d", "#8e44ad", "#d68910", "#17767d", "#555555", "#b03a7a"};
-/// Filled markers; the one before each is its outline.
+/// Filled markers of gnuplot; the number before each is its outline.
 constexpr std::array markers{7, 5, 9, 13, 11, 15, 7, 5};
-/// In points: of one panel with its texts, and around its axes.
+/// In points: size of one panel with its texts, and margins around its axes.
 constexpr double panel_width = 240.0, panel_height = 205.0;
 constexpr double around_left = 46.0, around_right = 8.0, around_bottom = 32.0, around_top = 8.0;
 /// Names of groups may have two lines.
@@ -33,7 +33,7 @@ std::string style_of(const BenchCurve& curve) {
     return fmt::format("with lines lw {:.3g} lc rgb '#60{}'", line_width(5.0), colours[style] + 1);
   }
   const bool dashed = curve.kind == CurveKind::dashed;
-  // Where colours come again, the lines tell.
+  // Dashes distinguish curves whose colours repeat.
   const bool again = static_cast<std::size_t>(curve.colour) / colours.size() % 2 == 1;
   const char* dashes = dashed ? "(8,6)" : again ? "(4,6)" : "solid";
   return fmt::format("with linespoints lw {:.3g} dashtype {} pt {} ps {:.3g} lc rgb '{}'",
@@ -51,7 +51,7 @@ std::string block(int number, const std::vector<double>& x, const std::vector<do
 struct BenchScript {
   std::string text;
   int n_blocks = 0;
-  std::vector<std::string> in_key;  ///< what it has already
+  std::vector<std::string> in_key;  ///< labels that it already has
 
   bool is_new(const std::string& label) {
     if (std::ranges::find(in_key, label) != in_key.end()) return false;
@@ -81,7 +81,7 @@ void add_curves(const BenchPanel& panel, BenchScript& script) {
     plot += fmt::format("$data{} using 1:2 with lines lw {:.3g} lc rgb '#999999' notitle, ", script.n_blocks++,
                         line_width(0.7));
   }
-  // Wide ones first: the others lie on top of them.
+  // Wide curves first, so that the others are drawn over them.
   for (const bool wide : {true, false}) {
     for (const BenchCurve& curve : panel.curves) {
       if ((curve.kind == CurveKind::wide) != wide) continue;
@@ -110,7 +110,7 @@ void add_bars(const BenchPanel& panel, BenchScript& script) {
   int power = 0;
   const std::vector<std::string> texts = tick_texts(ticks, power);
   const std::string label = power == 0 ? panel.y_label : fmt::format("{} / 10^{{{}}}", panel.y_label, power);
-  // One word a line.
+  // One word per line.
   std::vector<std::string> names = bars.groups;
   std::vector<double> middles;
   for (std::string& name : names) {
@@ -144,7 +144,7 @@ void add_bars(const BenchPanel& panel, BenchScript& script) {
   script.text += "plot " + plot + "NaN notitle\n";
 }
 
-/// Of the column with the key.
+/// Width of the column with the key.
 double key_width_of(const std::vector<BenchPanel>& panels) {
   constexpr double sample = 26.0;
   double width = 0.0;
@@ -193,7 +193,7 @@ void draw_bench(const std::vector<BenchPanel>& panels, const std::filesystem::pa
         "set lmargin at screen {:.5f}; set rmargin at screen {:.5f}\nset xlabel {} offset 0,0.4\nset ylabel {}\n",
         (left + around_left) / width, (left + one - around_right) / width, gnuplot_quoted(panels[i].x_label),
         gnuplot_quoted(panels[i].y_label));
-    // Each panel adds to the key what the panels before it do not have; all of them in the first's order.
+    // Each panel adds the labels that the panels before it lack; all are in the order of the first panel.
     script.text += fmt::format("set key at screen {:.5f},{:.5f} left top Left reverse samplen 1.6 spacing 1.2\n",
                                (one * static_cast<double>(panels.size()) - around_right + 6.0) / width,
                                1.0 - (around_top + 13.0 * static_cast<double>(script.in_key.size())) / panel_height);

@@ -19,7 +19,7 @@ struct Bounds {
   }
 };
 
-/// What a note must not meet: points of the curves and of the way between them.
+/// Boxes that a note must not overlap: points of the curves, and the lines between them.
 std::vector<Box> taken_by(const BenchPanel& panel, const PlotAxes& axes) {
   std::vector<Box> taken;
   const auto add = [&taken](double x, double y, double radius) {
@@ -47,7 +47,7 @@ std::vector<Box> taken_by(const BenchPanel& panel, const PlotAxes& axes) {
   return taken;
 }
 
-/// Middles of a box of this size around a point: near ones first, among those the one above on the right first.
+/// Midpoints of a box of this size around a point: the nearest first, among those the one on the upper right first.
 std::vector<PagePoint> places_around(double x, double y, double width, double height) {
   constexpr std::array distances{4.0, 6.0, 9.0, 12.0};
   constexpr int n_directions = 16;
@@ -130,7 +130,7 @@ PlotAxes axes_of(const BenchPanel& panel, double width, double height) {
     axes.x.lower = x.lower / room;
     axes.x.upper = x.upper * room;
   }
-  // No point lies on the frame.
+  // Keeps points off the frame.
   constexpr double room = 1.4;
   axes.y.lower = std::pow(10.0, std::floor(std::log10(y.lower / room)));
   axes.y.upper = std::pow(10.0, std::ceil(std::log10(y.upper * room)));
@@ -140,7 +140,7 @@ PlotAxes axes_of(const BenchPanel& panel, double width, double height) {
 std::vector<PlacedNote> place_notes(const BenchPanel& panel, const PlotAxes& axes, double font) {
   NotePlaces places(axes, taken_by(panel, axes), font);
   for (const BenchSlope& slope : panel.slopes) {
-    // At the end first, then at the beginning: without its name a line says nothing.
+    // At the end, otherwise at the beginning: a line without its label has no meaning.
     const double y_to = slope.y_from * std::pow(slope.x_to / slope.x_from, slope.exponent);
     const std::size_t before = places.notes.size();
     places.place(slope.label, axes.x.place(slope.x_to), axes.y.place(y_to), -1);

@@ -28,13 +28,13 @@ BenchTable empty_scenes_table() {
   return table;
 }
 
-/// Of a column, in the reference scales of the scene whatever the units of the file.
+/// Last number of a column, in the reference scales of the scene whatever the units of the file.
 double last_number(const HistoryTable& history, const Scene& scene, std::string_view name) {
   const auto column = std::ranges::find(history_columns(), name, &HistoryColumn::name);
   return history.column(std::string(name)).back() / history.units(scene.units).of(column->dimension).factor;
 }
 
-/// Nothing where the history, that of several vesicles, has no such column.
+/// Empty if the history, that of several vesicles, has no such column.
 BenchCell last_cell(const HistoryTable& history, const Scene& scene, std::string_view name) {
   if (!history.has(std::string(name))) return {};
   return last_number(history, scene, name);
@@ -58,14 +58,15 @@ BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const
                          BenchObserver& observer) {
   BenchResult result{"scenes", machine_record(), 1, {}, {empty_scenes_table()}};
   observer.heading(result.tables.front());
-  const auto tell = [&observer](const RunStatus& status) { observer.status(status); };
+  const auto on_status = [&observer](const RunStatus& status) { observer.status(status); };
   for (const auto& file : scenes) {
     const Scene scene = read_scene(file);
     const TemporaryFolder folder("vehd-bench");
     const RunPaths paths{folder.path()};
     Interruption interruption;
     const auto start = std::chrono::steady_clock::now();
-    const RunOutcome outcome = simulate({scene, paths, std::nullopt, tell, {}, {}, longest_lag_of_files}, interruption);
+    const RunOutcome outcome =
+        simulate({scene, paths, std::nullopt, on_status, {}, {}, longest_lag_of_files}, interruption);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (interruption.requested()) throw Interrupted("stopped by a signal at " + file.string());
     if (!outcome.completed) throw ConvergenceError(fmt::format("{}: {}", file.string(), outcome.reason));

@@ -13,7 +13,7 @@
 namespace vehd {
 namespace {
 
-/// docs/checks/shape33.toml in another degree.
+/// docs/checks/shape33.toml at another degree.
 std::string scene_of(int order) {
   return fmt::format(
       "[shape]\nkind = 'radial'\nbase = 1.0\namplitude = 0.2\nexponent = -3.0\nmodes = [{{n = 3, m = 2, a = 1.0}}]\n"
@@ -45,7 +45,7 @@ MethodError ShapeFlowProblem::error_of(const Matrix& found, const Matrix& exact,
   const Membrane membrane = membrane_at(space, position, {}, 1.0, instruments);
   const auto sizes = [&](const Matrix& coefficients) -> MethodError {
     const Vector squares = membrane.fine.synthesize(coefficients).rowwise().squaredNorm();
-    // The coefficient of Y_00 is the integral but for a factor that the ratio below does not have.
+    // The coefficient of Y_00 is the integral up to a factor that cancels in the ratios below.
     return {std::sqrt(membrane.weighted(squares)(0, 0)), std::sqrt(squares.maxCoeff())};
   };
   const MethodError difference = sizes(resize_order(found, reference_.front().order) - exact),

@@ -33,16 +33,16 @@ BenchTable empty_space_table() {
 }
 
 constexpr std::array kEqualErrors = {1e-4, 1e-7, 1e-10};
-/// Where the search for a degree ends: as far beyond the asked ones as rates can be trusted to hold.
+/// End of the search for a degree: as far beyond the requested ones as rates can be trusted to hold.
 int highest_degree(const std::vector<int>& orders) {
   constexpr int kBeyond = 2, kLargest = 64;
   return std::min(kLargest, kBeyond * *std::max_element(orders.begin(), orders.end()));
 }
 
-/// The error of the solver is negligible beside that of the degree.
+/// Keeps the error of the solver negligible beside that of the degree.
 constexpr double kSolved = 1e-13;
 
-/// What equal errors cost, so that another code can be held beside it.
+/// Cost of equal errors, for the comparison with other codes.
 BenchTable equal_table(const std::vector<int>& orders, int repeats, BenchTasks& tasks, BenchObserver& observer) {
   BenchTable table{"equal",
                    {{"field", "field", "{}", false, 22},

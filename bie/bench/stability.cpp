@@ -18,18 +18,18 @@
 namespace vehd {
 namespace {
 
-/// One line of a criterion, measured.
+/// One criterion, measured.
 struct Finding {
   std::string what;
   double value = 0.0;
   double bound = 0.0;
 
   [[nodiscard]] bool holds() const { return value <= bound; }
-  /// Over the bound, so that findings can be compared.
+  /// Value over bound, to compare findings.
   [[nodiscard]] double share() const { return std::isnan(value) ? INFINITY : value / bound; }
 };
 
-/// The largest rise between successive rows over the value.
+/// The largest rise between successive rows, relative to the value.
 double largest_rise(const std::vector<double>& values) {
   double rise = 0.0;
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -38,14 +38,14 @@ double largest_rise(const std::vector<double>& values) {
   return rise;
 }
 
-/// Largest minus smallest in the second half, over the last.
+/// Maximum minus minimum in the second half, relative to the last value.
 double late_change(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin() + static_cast<Index>(values.size() / 2), values.end());
   return (*most - *least) / std::abs(values.back());
 }
 
 std::vector<Finding> findings_of(const StabilityCase& hard, const HistoryTable& history, bool brief) {
-  // What constraints held to 1e-9 and solvers leave of an energy.
+  // Error of an energy due to the solvers and to constraints that hold to 1e-9.
   constexpr double rounding_of_energy = 1e-8;
   std::vector<Finding> findings;
   for (const ColumnBound& bound : hard.most) {
@@ -122,7 +122,7 @@ std::vector<BenchCell> row_of(const StabilityCase& hard, const RunTask& run, con
           failed ? "FAILS: " + problem : "holds" + (end.empty() ? "" : ", " + end)};
 }
 
-/// One row for each family: the criterion that came closest to its bound in all its cases.
+/// One row for each family: the criterion that is closest to its bound in all its cases.
 /// @param rows  of all cases, ordered by family
 BenchTable families_table(const BenchTable& rows) {
   BenchTable table{"families",
@@ -150,7 +150,7 @@ BenchTable families_table(const BenchTable& rows) {
   return table;
 }
 
-/// The cases that end otherwise than with a trustworthy run, or fail.
+/// The cases that fail, or that do not end with a trustworthy run.
 BenchTable faults_table(const BenchTable& rows) {
   BenchTable table{"faults", {{"case", "case", "{}"}, {"verdict", "verdict", "{}"}}};
   for (std::size_t row = 0; row < rows.rows.size(); ++row) {
@@ -160,7 +160,7 @@ BenchTable faults_table(const BenchTable& rows) {
   return table;
 }
 
-/// Whether the last shape has a hollow, which no view from outside shows: H > 0 on more than a hundredth of its area.
+/// Has the last shape a hollow, which no view from outside shows: H > 0 on more than a hundredth of its area?
 bool has_hollow(const RunPaths& paths) {
   constexpr int grid_degree = 24;
   constexpr double least_share = 0.01;
@@ -186,7 +186,7 @@ StabilityOutcome bench_stability(const StabilityTask& task, Interruption& interr
   for (const std::filesystem::path& path : task.scenes) {
     cases.push_back(read_stability_case(path));
     Scene& scene = cases.back().scene;
-    // Bounds are numbers of the scene.
+    // Bounds are in units of the scene.
     scene.output.units = ResultUnits::dimensionless;
     if (task.brief) scene.numerics.end_time = std::min(scene.numerics.end_time, cases.back().short_end_time);
   }

@@ -15,7 +15,7 @@
 namespace vehd {
 namespace {
 
-/// The criterion as TOML, with every other line empty so that line numbers are those of the file.
+/// The criterion as TOML; all other lines are empty, so that line numbers are those of the file.
 std::string criterion_text(const std::filesystem::path& path) {
   constexpr std::string_view mark = "#:";
   std::ifstream stream(path);

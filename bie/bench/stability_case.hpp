@@ -8,8 +8,8 @@
 
 namespace vehd {
 
-/// How a hard case has to end: at its end time and trustworthy; at its end time with a verdict that names what is not;
-/// before its end, with a reason.
+/// Required end of a hard case: at its end time and trustworthy; at its end time with a verdict that names a fault;
+/// before its end time, with a reason.
 enum class ExpectedEnd { completed, flagged, stops };
 
 /// A bound on one column of history.csv.
@@ -18,10 +18,10 @@ struct ColumnBound {
   double bound;
 };
 
-/// A scene with its pass criterion, which stands at the top of the scene file in lines "#: key = value" (TOML):
-/// family, expect (an ExpectedEnd), short_end_time, most (largest magnitudes of columns), falls (columns that never
-/// rise), steady (largest relative changes of columns in the second half of the run). Without bounds of their own, area
-/// and volume may drift by 1e-6.
+/// A scene with its pass criterion, given at the top of the scene file in lines "#: key = value" (TOML): family, expect
+/// (an ExpectedEnd), short_end_time, most (largest magnitudes of columns), falls (columns that never rise), steady
+/// (largest relative changes of columns in the second half of the run). Area and volume may drift by 1e-6 unless the
+/// file gives other bounds.
 struct StabilityCase {
   std::string name;
   std::string family;
@@ -33,7 +33,7 @@ struct StabilityCase {
   std::vector<ColumnBound> steady;
 };
 
-/// @throws InputError naming file and line
+/// @throws InputError that names file and line
 StabilityCase read_stability_case(const std::filesystem::path& path);
 
 }  // namespace vehd

@@ -15,7 +15,7 @@
 namespace vehd {
 namespace {
 
-/// Everything known about one part.
+/// Measurements of one part.
 struct PartCurve {
   std::vector<double> orders, seconds, memory_orders, bytes;
   double operations = 0.0;

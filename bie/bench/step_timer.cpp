@@ -15,7 +15,7 @@
 namespace vehd {
 namespace {
 
-/// The membrane charges, the grid settles, and the solves learn.
+/// Steps in which the membrane charges, the grid settles and the solves collect recycled subspaces.
 constexpr int kWarmUp = 20;
 constexpr const char* kStep = "step";
 constexpr const char* kOther = "other";

@@ -49,7 +49,7 @@ nlohmann::ordered_json number(double value) {
   return nullptr;
 }
 
-/// What a cell is under its key or keys.
+/// Entries of a cell, one for each key of its column.
 std::vector<Entry> entries_of(const BenchColumn& column, const BenchCell& cell) {
   if (column.timing) {
     const std::array keys{column.key, column.key + "_min", column.key + "_max", column.key + "_repeats"};

@@ -23,7 +23,7 @@ namespace {
 struct Quantity {
   const char* name;
   double VesicleDiagnostics::*member;
-  bool shown = true;  ///< among the values that are printed
+  bool shown = true;  ///< among the printed values
 };
 constexpr std::array kQuantities = {
     Quantity{"extent_x", &VesicleDiagnostics::extent_x},
@@ -46,7 +46,7 @@ struct TimedRow {
 struct TimedRun {
   std::string integrator, setting;
   BenchCell dt{}, tolerance{};
-  std::vector<TimedRow> rows{};  ///< with a tolerance at the start and at snapshots; last, at the end
+  std::vector<TimedRow> rows{};  ///< with a tolerance: at the start, at snapshots and at the end; otherwise at the end
   std::vector<double> seconds{};
   std::int64_t n_steps = 0;
   int highest_order = 0;
@@ -77,7 +77,7 @@ void run_once(const Scene& scene, const EventTimes& events, TimedRun& run, Bench
     const StepAttempt step = evolution.step(events);
     run.highest_order = std::max(run.highest_order, highest_order_of(evolution.state()));
     raw_area += std::abs(step.raw_area);
-    for (const Evolution::Moment& moment : evolution.passed()) {
+    for (const Evolution::DenseOutput& moment : evolution.dense_output()) {
       run.rows.push_back(row_of(moment.state, moment.evaluation));
     }
     if (step.at_snapshot && evolution.state().time < events.end_time) {
@@ -116,8 +116,8 @@ TimedRun adaptive_run(const TimeTask& task, double tolerance, BenchObserver& obs
   return run;
 }
 
-/// Largest difference of one quantity in the rows that both have, over its largest value there, of all vesicles; angles
-/// over a radian.
+/// Largest difference of one quantity in the rows that both runs have, over all vesicles, relative to its largest value
+/// there; differences of angles are in radians.
 double relative_error(const Quantity& quantity, const TimedRun& run, const TimedRun& reference) {
   constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
   constexpr double kSameTime = 1e-9;
@@ -158,7 +158,7 @@ BenchTable empty_time_table() {
   return table;
 }
 
-/// Of all quantities, in their order.
+/// Errors of all quantities, in their order.
 std::vector<double> errors_of(const TimedRun& run, const TimedRun& reference) {
   std::vector<double> errors;
   for (const Quantity& quantity : kQuantities) {
@@ -167,27 +167,27 @@ std::vector<double> errors_of(const TimedRun& run, const TimedRun& reference) {
   return errors;
 }
 
-/// At the end, of the first vesicle.
+/// Value at the end, of the first vesicle.
 double final_value(const Quantity& quantity, const TimedRun& run) {
   return run.rows.back().vesicles.front().*quantity.member;
 }
 
-/// What errors are taken from.
+/// Runs from which errors are taken.
 struct References {
   const TimedRun& best;
-  const TimedRun* same_degree;  ///< with steps far smaller; nullptr: none
+  const TimedRun* same_degree;  ///< with far smaller steps; nullptr: none
 };
 
 std::vector<BenchCell> row_of(const TimedRun& run, const References& references) {
   const std::vector<double> errors = errors_of(run, references.best);
   BenchCell error, in_time, over_tolerance;
-  // The reference has none that could be known.
+  // The error of the reference is unknown.
   if (&run != &references.best) {
     error = std::ranges::max(errors);
     if (const double* tolerance = std::get_if<double>(&run.tolerance))
       over_tolerance = std::ranges::max(errors) / *tolerance;
   }
-  // A tolerance has no degree of its own.
+  // Runs with a tolerance have no fixed degree.
   if (references.same_degree != nullptr && references.same_degree != &run && std::holds_alternative<double>(run.dt)) {
     in_time = std::ranges::max(errors_of(run, *references.same_degree));
   }
@@ -213,7 +213,7 @@ std::vector<Quantity> shown_quantities() {
   return shown;
 }
 
-/// Values at each step size of one integrator; below them the order and the limit that the last three suggest.
+/// Adds the values at each step size of one integrator, and the order and the limit estimated from the last three.
 void add_values(BenchTable& table, const std::vector<TimedRun>& runs, BenchObserver& observer) {
   for (const TimedRun& run : runs) {
     std::vector<BenchCell> row{run.integrator, run.setting};
@@ -227,7 +227,7 @@ void add_values(BenchTable& table, const std::vector<TimedRun>& runs, BenchObser
     const auto value = [&](std::size_t from_end) { return final_value(quantity, runs[runs.size() - from_end]); };
     const double coarse = value(3), middle = value(2), fine = value(1);
     const double ratio = (coarse - middle) / (middle - fine);
-    // Values that do not move monotonically, or not at all, have no order.
+    // Values that do not change monotonically, or not at all, have no observed order.
     const bool converging = std::isfinite(ratio) && ratio > 1.0 && std::abs(middle - fine) > 1e-9 * std::abs(fine);
     orders.emplace_back();
     limits.emplace_back();
@@ -248,7 +248,7 @@ BenchTable values_table() {
   return table;
 }
 
-/// Error of the steps alone of fixed steps, of all with a tolerance; nothing where it is not known.
+/// Error of the steps only for fixed steps, the whole error with a tolerance; nothing if it is unknown.
 std::optional<double> error_of_integrator(const TimedRun& run, const References& references) {
   const bool is_fixed = std::holds_alternative<double>(run.dt);
   const TimedRun* reference = is_fixed ? references.same_degree : &references.best;
@@ -265,8 +265,8 @@ BenchTable empty_digits_table() {
            {"seconds_of_a_digit", "one more digit multiplies the seconds by", "{:.2g}"}}};
 }
 
-/// What one more digit costs, from the power law through all runs of an integrator with a known error; nothing where
-/// there are too few, or errors that do not fall.
+/// Cost of one more digit, from the power law through all runs of an integrator with a known error; empty if there are
+/// fewer than three, or if seconds do not grow as errors fall.
 std::vector<BenchCell> digits_row(const std::vector<TimedRun>& runs, const References& references) {
   std::vector<double> errors, seconds;
   for (const TimedRun& run : runs) {

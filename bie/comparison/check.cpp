@@ -28,7 +28,7 @@ constexpr int highest_doubled_order = 24;
 constexpr int least_further_degrees = 16;
 
 /// Keeps the sample points at which both orders have values.
-void keep_known(CheckSamples& samples, CheckFields& a, CheckFields& b) {
+void keep_evaluated(CheckSamples& samples, CheckFields& a, CheckFields& b) {
   std::vector<Index> known;
   for (Index i = 0; i < samples.points.rows(); ++i) {
     const auto knows = [i](const CheckFields& fields) {
@@ -90,7 +90,7 @@ void solve_by_integrals(const CheckTask& task, const std::filesystem::path& inpu
   const auto solved_at = [&](const std::vector<int>& of_each) {
     try {
       std::vector<CheckFields> fields = check_fields(problem, of_each);
-      if (task.tell) task.tell(fields.front());
+      if (task.on_solved) task.on_solved(fields.front());
       return fields;
     } catch (const ConvergenceError& error) {
       throw ConvergenceError(
@@ -98,7 +98,7 @@ void solve_by_integrals(const CheckTask& task, const std::filesystem::path& inpu
     }
   };
   std::vector<CheckFields> at_order = solved_at(orders), for_error = solved_at(others);
-  keep_known(problem.samples, at_order.front(), for_error.front());
+  keep_evaluated(problem.samples, at_order.front(), for_error.front());
   std::optional<InTime> in_time;
   if (task.span) {
     in_time =

@@ -22,7 +22,7 @@ struct CheckTask {
   std::optional<int> n_ranks{};
   /// Called when the boundary integrals are solved at the degree of the state, and then at that of estimate_order();
   /// may be empty.
-  std::function<void(const CheckFields&)> tell{};
+  std::function<void(const CheckFields&)> on_solved{};
 };
 
 /// Degree of a second solution, whose difference from that of `order` is the estimated error of the latter: doubled up

@@ -110,7 +110,7 @@ namespace {
 void require_plain_charging(const FrozenState& frozen) {
   const auto refuse = [&](const char* what) {
     throw InputError(
-        fmt::format("{}: has {}, which the finite-element check knows about one vesicle alone; accepted: "
+        fmt::format("{}: has {}, which the finite-element check supports for one vesicle only; accepted: "
                     "two without",
                     frozen.source, what));
   };
@@ -192,7 +192,7 @@ Matrix total_force(const FrozenState& frozen, const VesicleFields& fields, std::
     Forcing forcing{Matrix::Zero(membrane.surface.n_points(), 3), Matrix::Zero(position.rows(), 3)};
     effect->add({membrane, position, frozen.state.time}, forcing);
     if (!forcing.velocity.isZero(0.0)) {
-      throw InputError(fmt::format("{}: the finite-element check knows linear background flows only, not: {}",
+      throw InputError(fmt::format("{}: the finite-element check supports linear background flows only, not: {}",
                                    frozen.source, effect->description().name));
     }
     force += membrane.fine.analyze(forcing.force);

@@ -93,7 +93,7 @@ TrialRun run_trial(const Scene& scene, std::int64_t most_steps, double seconds, 
     while (!trial.completed && std::ssize(trial.times) < most_steps &&
            (trial.times.empty() || trial.all_seconds < seconds)) {
       const int evaluations = evolution.step(events).evaluations;
-      const auto snapshots = static_cast<double>(evolution.passed().size());
+      const auto snapshots = static_cast<double>(evolution.dense_output().size());
       const double before = note();
       trial.times.push_back(evolution.state().time);
       trial.seconds.push_back(trial.all_seconds - before);

@@ -113,9 +113,9 @@ std::map<std::string, std::uint64_t> pair_targets_of(const Problem& problem, con
   }
   Instruments instruments;
   const Exchange& exchange = problem.symmetry.exchange;
-  const Interaction sorted(membranes, pair_settings(problem.settings), instruments,
-                           Partition({}, std::vector<double>(membranes.size(), 1.0), exchange.originals()), exchange,
-                           {}, wall);
+  const Interaction classified(membranes, pair_settings(problem.settings), instruments,
+                               Partition({}, std::vector<double>(membranes.size(), 1.0), exchange.originals()),
+                               exchange, {}, wall);
   return instruments.pair_targets();
 }
 

@@ -197,15 +197,13 @@ std::string shown_time(double time, const SiUnit& unit) {
 
 SnapshotChoice choose_snapshot(const RunReader& run, const std::filesystem::path& file, std::optional<double> time,
                                const SiUnit& shown) {
-  // Times of snapshots are multiples of a decimal number up to rounding.
-  constexpr double kSameTime = 1e-9;
   const std::vector<double>& times = run.times();
   if (!time) return {times.size() - 1, ""};
   const std::size_t snapshot = run.nearest(*time);
   const double spacing = spacing_at(times, snapshot, *time);
   const double distance = std::abs(times[snapshot] - *time);
   const auto text = [&shown](double of) { return shown_time(of, shown); };
-  const double same = kSameTime * std::max(spacing, std::abs(*time));
+  const double same = time_tolerance * std::max(spacing, std::abs(*time));
   if (distance <= same) return {snapshot, ""};
   // Written so that NaN is refused.
   if (!(distance <= 0.5 * spacing + same)) {

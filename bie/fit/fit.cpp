@@ -40,9 +40,9 @@ LeastSquares least_squares_of(const FitFile& fit) {
   return problem;
 }
 
-FitResult fit_keys(const FitFile& fit, const ModelRuns& runs, std::function<void(int, double)> tell) {
+FitResult fit_keys(const FitFile& fit, const ModelRuns& runs, std::function<void(int, double)> report_progress) {
   LeastSquares problem = least_squares_of(fit);
-  problem.tell = std::move(tell);
+  problem.report_progress = std::move(report_progress);
   problem.model = [&](const std::vector<Vector>& points) {
     std::vector<std::vector<std::string>> settings;
     for (const Vector& point : points) settings.push_back(settings_at(fit.keys, point));

@@ -27,10 +27,10 @@ struct FitResult {
 LeastSquares least_squares_of(const FitFile& fit);
 
 /// Fits the free keys of all experiments together, with runs as the model.
-/// @param tell  called after each evaluation of the model, with χ² so far; may be empty
+/// @param report_progress  called after each evaluation of the model, with χ² so far; may be empty
 /// @throws InputError if the model has no value at the start or on either side of a point
 /// @throws Interrupted on a signal (finished runs are kept), OutputError
 FitResult fit_keys(const FitFile& fit, const ModelRuns& runs,
-                   std::function<void(int n_evaluations, double chi2)> tell = {});
+                   std::function<void(int n_evaluations, double chi2)> report_progress = {});
 
 }  // namespace vehd

@@ -28,7 +28,7 @@ class Residuals {
         steps_((0.25 * width_).cwiseMin(longest_step)) {
     const Prediction start = evaluate({problem.start}).front();
     if (!start.values) throw InputError("the model has no value at the start: " + start.problem);
-    here_ = minimum_at(problem.start, *start.values);
+    current_ = minimum_at(problem.start, *start.values);
   }
 
   [[nodiscard]] Index values() const { return problem_.data.size(); }
@@ -36,8 +36,8 @@ class Residuals {
   /// @returns -1 if no evaluation is left, which ends the search
   int operator()(const Vector& u, Vector& residuals) {
     const Vector p = p_of(u);
-    if (p == here_.point) {
-      residuals = here_.residuals;
+    if (p == current_.point) {
+      residuals = current_.residuals;
       return 0;
     }
     if (n_evaluations_ >= most_evaluations_) return -1;
@@ -55,37 +55,37 @@ class Residuals {
   /// @returns -1 at the minimum or if no evaluation is left
   int df(const Vector& u, Matrix& derivatives) {
     move_to(p_of(u));
-    const Vector& p = here_.point;
+    const Vector& p = current_.point;
     const Vector slopes = (p - problem_.lower).cwiseProduct(problem_.upper - p).cwiseQuotient(width_);
-    derivatives = -here_.jacobian * slopes.asDiagonal();
+    derivatives = -current_.jacobian * slopes.asDiagonal();
     // JᵀJ may be singular: each parameter counts as known to half the width of its interval.
-    Matrix normal = here_.jacobian.transpose() * here_.jacobian;
+    Matrix normal = current_.jacobian.transpose() * current_.jacobian;
     normal.diagonal() += (2.0 * width_.cwiseInverse()).cwiseAbs2();
-    const Vector gradient = here_.jacobian.transpose() * here_.residuals;
-    here_.converged = gradient.dot(normal.ldlt().solve(gradient)) < converged_decrease;
-    return here_.converged || n_evaluations_ >= most_evaluations_ ? -1 : 0;
+    const Vector gradient = current_.jacobian.transpose() * current_.residuals;
+    current_.converged = gradient.dot(normal.ldlt().solve(gradient)) < converged_decrease;
+    return current_.converged || n_evaluations_ >= most_evaluations_ ? -1 : 0;
   }
 
   /// The end of the search, with central differences.
   Minimum finish(const Vector& u, bool has_converged) {
-    if (p_of(u) != here_.point) move_to(p_of(u));
+    if (p_of(u) != current_.point) move_to(p_of(u));
     std::vector<Vector> points;
     std::vector<Index> columns;
     for (Index k = 0; k < steps_.size(); ++k) {
-      if (!is_within(beside(k, -here_.steps[k]), k)) continue;
-      points.push_back(beside(k, -here_.steps[k]));
+      if (!is_within(neighbour(k, -current_.steps[k]), k)) continue;
+      points.push_back(neighbour(k, -current_.steps[k]));
       columns.push_back(k);
     }
     const std::vector<Prediction> backward = evaluate(points);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (!backward[i].values) continue;
       const Index k = columns[i];
-      here_.jacobian.col(k) =
-          (forward_.col(k) - *backward[i].values).cwiseQuotient(2.0 * here_.steps[k] * problem_.deviations);
+      current_.jacobian.col(k) =
+          (forward_.col(k) - *backward[i].values).cwiseQuotient(2.0 * current_.steps[k] * problem_.deviations);
     }
-    here_.converged = here_.converged || has_converged;
-    here_.n_evaluations = n_evaluations_;
-    return here_;
+    current_.converged = current_.converged || has_converged;
+    current_.n_evaluations = n_evaluations_;
+    return current_;
   }
 
  private:
@@ -110,12 +110,12 @@ class Residuals {
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (predictions[i].values) least_ = std::min(least_, minimum_at(points[i], *predictions[i].values).chi2());
     }
-    if (problem_.tell) problem_.tell(n_evaluations_, least_);
+    if (problem_.report_progress) problem_.report_progress(n_evaluations_, least_);
     return predictions;
   }
 
-  [[nodiscard]] Vector beside(Index k, double step) const {
-    return here_.point + step * Vector::Unit(here_.point.size(), k);
+  [[nodiscard]] Vector neighbour(Index k, double step) const {
+    return current_.point + step * Vector::Unit(current_.point.size(), k);
   }
 
   [[nodiscard]] bool is_within(const Vector& p, Index k) const {
@@ -124,27 +124,28 @@ class Residuals {
 
   /// Moves to a point if it was just tried, and takes forward differences there.
   void move_to(const Vector& p) {
-    if (trial_.point.size() > 0 && p == trial_.point) here_ = trial_;
+    if (trial_.point.size() > 0 && p == trial_.point) current_ = trial_;
     const Index n = p.size();
-    here_.steps = steps_;
+    current_.steps = steps_;
     std::vector<Vector> points;
     for (Index k = 0; k < n; ++k) {
-      if (!is_within(beside(k, steps_[k]), k)) here_.steps[k] = -steps_[k];
-      points.push_back(beside(k, here_.steps[k]));
+      if (!is_within(neighbour(k, steps_[k]), k)) current_.steps[k] = -steps_[k];
+      points.push_back(neighbour(k, current_.steps[k]));
     }
     std::vector<Prediction> beside_it = evaluate(points);
     forward_.resize(values(), n);
-    here_.jacobian.resize(values(), n);
+    current_.jacobian.resize(values(), n);
     for (Index k = 0; k < n; ++k) {
       Prediction& prediction = beside_it[static_cast<std::size_t>(k)];
       if (!prediction.values) {
-        here_.steps[k] = -here_.steps[k];
-        prediction = evaluate({beside(k, here_.steps[k])}).front();
+        current_.steps[k] = -current_.steps[k];
+        prediction = evaluate({neighbour(k, current_.steps[k])}).front();
         if (!prediction.values) throw InputError("the model has no derivative: " + prediction.problem);
       }
       forward_.col(k) = *prediction.values;
-      here_.jacobian.col(k) = (forward_.col(k) - here_.model).cwiseQuotient(here_.steps[k] * problem_.deviations);
-      const double norm = here_.jacobian.col(k).norm(), longest = std::min(longest_step, 0.25 * width_[k]);
+      current_.jacobian.col(k) =
+          (forward_.col(k) - current_.model).cwiseQuotient(current_.steps[k] * problem_.deviations);
+      const double norm = current_.jacobian.col(k).norm(), longest = std::min(longest_step, 0.25 * width_[k]);
       steps_[k] =
           norm * longest > wanted_change ? std::max(wanted_change / norm, std::min(shortest_step, longest)) : longest;
     }
@@ -155,8 +156,8 @@ class Residuals {
   int most_evaluations_, n_evaluations_ = 0;
   double least_ = std::numeric_limits<double>::infinity();  ///< least χ² so far
   Vector steps_;                                            ///< of the next differences
-  Minimum here_, trial_;
-  Matrix forward_;  ///< the model at the neighbours of here_
+  Minimum current_, trial_;
+  Matrix forward_;  ///< the model at the neighbours of current_
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ struct LeastSquares {
   /// m, [n_data], at several points p, [n_parameters] each.
   std::function<std::vector<Prediction>(const std::vector<Vector>& points)> model;
   /// Called after each evaluation; may be empty.
-  std::function<void(int n_evaluations, double chi2)> tell{};
+  std::function<void(int n_evaluations, double chi2)> report_progress{};
 };
 
 /// Minimum of χ² = Σ ((d_i − m_i)/s_i)².

@@ -66,7 +66,7 @@ void ModelRuns::compute(const std::vector<SweepRun>& runs) const {
   if (n_left == 0) return;
   const int n_workers = std::clamp<int>(static_cast<int>(n_left), 1, work_.n_workers);
   const std::string problem =
-      run_sweep({paths, runs, std::move(order), n_workers, work_.n_threads, work_.tell}, interruption_);
+      run_sweep({paths, runs, std::move(order), n_workers, work_.n_threads, work_.report_progress}, interruption_);
   if (!problem.empty()) throw Interrupted(problem);
 }
 

@@ -21,7 +21,7 @@ struct RunWork {
   int n_workers = 1;                ///< processes at a time
   int n_threads = 1;                ///< of each process
   /// Progress; called often.
-  std::function<void(std::int64_t n_finished, std::int64_t n_runs, double share)> tell{};
+  std::function<void(std::int64_t n_finished, std::int64_t n_runs, double share)> report_progress{};
 };
 
 /// The model of experiments: runs of their scenes, each in a directory named by a hash of its effective scene. Finished

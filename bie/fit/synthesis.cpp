@@ -96,13 +96,13 @@ Experiment experiment_of(const Synthesis& synthesis) {
 }
 
 Vector simulated_values(Experiment experiment, const RunWork& work, Interruption& interruption) {
-  constexpr double exact_share = 0.01;
+  constexpr double run_error_share = 0.01;
   std::vector<Experiment> experiments = {std::move(experiment)};
   Experiment& only = experiments.front();
   const ModelRuns runs(experiments, work, interruption);
   Vector values;
   for (const double tolerance : {loosest_tolerance, 0.0}) {
-    only.tolerance = tolerance > 0.0 ? tolerance : tolerance_for(only.data, exact_share);
+    only.tolerance = tolerance > 0.0 ? tolerance : tolerance_for(only.data, run_error_share);
     Prediction prediction = runs.predict({{}}).front();
     if (!prediction.values) {
       throw InputError(fmt::format("{}: {}", only.source.file.string(), prediction.problem));

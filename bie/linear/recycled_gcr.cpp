@@ -32,13 +32,14 @@ bool RecycledGcr::add_direction(const Vector& proposal, double allowed) {
       direction.image -= share * former.image;
       direction.x -= share * former.x;
       direction.mapped -= share * former.mapped;
-      direction.shares.head(former.shares.size()) -= share * former.shares;
+      direction.proposal_coefficients.head(former.proposal_coefficients.size()) -= share * former.proposal_coefficients;
     }
   }
   const double norm = direction.image.norm();
-  for (Vector* part : {&direction.x, &direction.mapped, &direction.image, &direction.shares}) *part /= norm;
+  for (Vector* part : {&direction.x, &direction.mapped, &direction.image, &direction.proposal_coefficients})
+    *part /= norm;
   rounding_.push_back(rounding);
-  if (!(uncertainty(direction.shares) <= allowed)) {
+  if (!(uncertainty(direction.proposal_coefficients) <= allowed)) {
     rounding_.pop_back();
     return false;
   }
@@ -46,31 +47,32 @@ bool RecycledGcr::add_direction(const Vector& proposal, double allowed) {
   return true;
 }
 
-double RecycledGcr::follow(const Direction& direction, Iterate& iterate) const {
+double RecycledGcr::subtract_component(const Direction& direction, Iterate& iterate) const {
   const double share = iterate.residual.dot(direction.image);
   const double of_residual = std::abs(share) / iterate.size();
   iterate.x += share * direction.x;
   iterate.further += share * direction.mapped.tail(n_further_);
   iterate.residual -= share * direction.image;
-  if (iterate.shares.size() < direction.shares.size()) {
-    iterate.shares.conservativeResizeLike(Vector::Zero(direction.shares.size()));
+  if (iterate.proposal_coefficients.size() < direction.proposal_coefficients.size()) {
+    iterate.proposal_coefficients.conservativeResizeLike(Vector::Zero(direction.proposal_coefficients.size()));
   }
-  iterate.shares.head(direction.shares.size()) += share * direction.shares;
+  iterate.proposal_coefficients.head(direction.proposal_coefficients.size()) += share * direction.proposal_coefficients;
   return of_residual;
 }
 
-double RecycledGcr::uncertainty(const Vector& shares) const {
+double RecycledGcr::uncertainty(const Vector& proposal_coefficients) const {
   double sum = 0.0;
-  for (Index i = 0; i < shares.size(); ++i) sum += std::abs(shares[i]) * rounding_[static_cast<std::size_t>(i)];
+  for (Index i = 0; i < proposal_coefficients.size(); ++i)
+    sum += std::abs(proposal_coefficients[i]) * rounding_[static_cast<std::size_t>(i)];
   return sum;
 }
 
-void RecycledGcr::look(const Vector& goal, Iterate& iterate) const {
+void RecycledGcr::recompute_residual(const Vector& goal, Iterate& iterate) const {
   const Vector mapped = map_(iterate.x);
   const Vector image = preconditioned(mapped);
   iterate.further = mapped.tail(n_further_);
   iterate.residual = goal - image;
-  iterate.shares.resize(0);
+  iterate.proposal_coefficients.resize(0);
   iterate.rounding = thresholds::map_rounding * std::max(iterate.x.norm(), image.norm());
 }
 
@@ -86,7 +88,7 @@ RecycledGcr::Solution RecycledGcr::solve(const Vector& rhs, const Vector& start,
   Iterate iterate{Vector::Zero(size_), Vector::Zero(n_further_), goal, Vector(), 0.0};
   if (start.size() > 0 && !start.isZero(0.0)) {
     iterate.x = start;
-    look(goal, iterate);
+    recompute_residual(goal, iterate);
   }
   const double wanted = options.tolerance * scale;
   int& iterations = solution.report.iterations;
@@ -95,12 +97,12 @@ RecycledGcr::Solution RecycledGcr::solve(const Vector& rhs, const Vector& start,
   double allowed = thresholds::most_uncertain_direction;
   double size = 0.0;
   for (;;) {
-    for (const Direction& direction : directions_) follow(direction, iterate);
+    for (const Direction& direction : directions_) subtract_component(direction, iterate);
     search(wanted, options.max_iterations, allowed, iterate, iterations);
-    size = iterate.size() + (iterate.is_true() ? 0.0 : iterate.rounding + uncertainty(iterate.shares));
+    size = iterate.size() + (iterate.is_true() ? 0.0 : iterate.rounding + uncertainty(iterate.proposal_coefficients));
     const bool exhausted = iterate.size() > wanted;
     if (size <= wanted || !std::isfinite(size) || (exhausted && iterations >= options.max_iterations)) break;
-    look(goal, iterate);
+    recompute_residual(goal, iterate);
     ++iterations;
     size = iterate.size();
     if (size <= wanted) break;
@@ -141,7 +143,7 @@ void RecycledGcr::search(double wanted, int most, double allowed, Iterate& itera
                                      allowed);
     ++iterations;
     if (!added && stagnates) break;
-    share = added ? follow(directions_.back(), iterate) : 0.0;
+    share = added ? subtract_component(directions_.back(), iterate) : 0.0;
   }
 }
 

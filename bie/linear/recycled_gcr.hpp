@@ -43,21 +43,21 @@ class RecycledGcr {
  private:
   struct Direction {
     Vector x;
-    Vector mapped;  ///< A x and the further entries
-    Vector image;   ///< preconditioned A x; orthonormal to those of all other directions
-    Vector shares;  ///< its coefficients in the proposals up to its own
+    Vector mapped;                 ///< A x and the further entries
+    Vector image;                  ///< preconditioned A x; orthonormal to those of all other directions
+    Vector proposal_coefficients;  ///< its coefficients in the proposals up to its own
   };
   /// Approximate solution during the iteration.
   struct Iterate {
     Vector x;
     Vector further;
-    Vector residual;  ///< preconditioned, by recurrence
-    Vector shares;    ///< coefficients in the proposals since the recurrence started
-    double rounding;  ///< error of the residual at the start of the recurrence
+    Vector residual;               ///< preconditioned, by recurrence
+    Vector proposal_coefficients;  ///< coefficients in the proposals since the recurrence started
+    double rounding;               ///< error of the residual at the start of the recurrence
 
     [[nodiscard]] double size() const { return residual.norm(); }
     /// Is the residual b − A x itself, not yet updated by recurrence?
-    [[nodiscard]] bool is_true() const { return shares.size() == 0; }
+    [[nodiscard]] bool is_true() const { return proposal_coefficients.size() == 0; }
   };
   [[nodiscard]] Vector preconditioned(const Vector& mapped) const;
   /// Orthogonalises a proposed direction and stores it.
@@ -65,14 +65,14 @@ class RecycledGcr {
   bool add_direction(const Vector& proposal, double allowed);
   /// Adds the step along the direction that minimises the residual.
   /// @returns norm of the part removed over the norm of the residual before
-  double follow(const Direction& direction, Iterate& iterate) const;
+  double subtract_component(const Direction& direction, Iterate& iterate) const;
   /// Bound of the rounding error of a combination of proposals with these coefficients.
-  [[nodiscard]] double uncertainty(const Vector& shares) const;
+  [[nodiscard]] double uncertainty(const Vector& proposal_coefficients) const;
   /// Adds directions until the residual is at most `wanted`, `most` iterations are reached or none is accepted.
   /// @param allowed  largest uncertainty of a direction
   void search(double wanted, int most, double allowed, Iterate& iterate, int& iterations);
   /// Replaces the recursive residual by b − A x.
-  void look(const Vector& goal, Iterate& iterate) const;
+  void recompute_residual(const Vector& goal, Iterate& iterate) const;
 
   LinearMap map_;
   LinearMap preconditioner_;

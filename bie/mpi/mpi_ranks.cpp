@@ -1,6 +1,6 @@
 #include "bie/mpi/mpi_ranks.hpp"
 
-// The C interface alone.
+// Only the C interface.
 #define OMPI_SKIP_MPICXX 1
 #define MPICH_SKIP_MPICXX 1
 #include <fmt/format.h>
@@ -22,11 +22,11 @@ namespace {
 
 constexpr std::array kSetByLaunchers = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
 
-/// MPI between construction and destruction. Its errors end all ranks, as is its default.
+/// Initialises MPI on construction and finalises it on destruction. Its errors end all ranks, the default of MPI.
 class MpiLink : public RankLink {
  public:
   MpiLink() {
-    // Threads that MPI starts for itself leave alone what a run waits for, and would end the process otherwise.
+    // Threads of MPI inherit the blocked signals; a signal that a run polls for would otherwise end the process there.
     const Interruption inherited;
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
@@ -79,7 +79,7 @@ class MpiLink : public RankLink {
     return static_cast<int>(size);
   }
 
-  /// Where each text begins in all of them, and where the last one ends.
+  /// Offset of each text in their concatenation, and the end of the last one.
   static std::vector<int> places_of(const std::vector<int>& sizes) {
     std::vector<int> places{0};
     std::size_t end = 0;
@@ -105,8 +105,8 @@ class MpiLink : public RankLink {
     return sizes;
   }
 
-  /// Whoever waits long leaves the processor to others: ranks of Open MPI spin, which costs another rank, or their own
-  /// threads, whole time slices as soon as anything else runs on the machine.
+  /// A long wait yields the processor: ranks of Open MPI spin, which costs other ranks, or their own threads, whole
+  /// time slices as soon as anything else runs on the machine.
   static void wait(MPI_Request& request) {
     constexpr int kSpins = 200;
     constexpr std::chrono::microseconds kPause{20};

@@ -4,8 +4,8 @@
 
 namespace vehd {
 
-/// The processes that mpirun or srun has started this one with, until the last copy is gone; alone where it was started
-/// by itself, and MPI is left alone then.
+/// The processes that mpirun or srun has started together with this one; MPI ends with the last copy. A single rank,
+/// without MPI, if this process was started on its own.
 Ranks mpi_ranks();
 
 }  // namespace vehd

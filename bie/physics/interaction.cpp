@@ -245,7 +245,7 @@ struct Interaction::Parts {
   /// For each membrane of this rank, the nodes (or mirrored nodes) at which its layers are needed.
   /// @param serves  (target, source): is this pair needed?
   template <class Serves>
-  [[nodiscard]] std::vector<std::vector<NearNodes>> find_near(const Serves& serves) const {
+  [[nodiscard]] std::vector<std::vector<NearNodes>> find_near(const Serves& is_needed) const {
     std::vector<std::vector<NearNodes>> near(n());
     for (std::size_t b = 0; b < n(); ++b) {
       if (!partition.is_local(b)) continue;
@@ -253,7 +253,7 @@ struct Interaction::Parts {
       for (std::size_t c = 0; c < n(); ++c) {
         if (exchange.original(c) != b) continue;
         for (std::size_t a = 0; a < n(); ++a) {
-          if (!exchange.is_image(a) && serves(a, c)) uses[exchange.preimage(c, a)].push_back({a, c});
+          if (!exchange.is_image(a) && is_needed(a, c)) uses[exchange.preimage(c, a)].push_back({a, c});
         }
       }
       for (auto& [at, all] : uses) near[b].push_back({at, std::move(all)});

@@ -114,7 +114,8 @@ class ChargingStep {
     if (!porates()) return {};
     const Vector reached = base_ + Vector(fine().synthesize(solution));
     const Move move{(reached - about_).cwiseAbs().maxCoeff(), reached.cwiseAbs().maxCoeff()};
-    about_ = about_.binaryExpr(reached, [&](double old, double next) { return driven_.reaction->limited(old, next); });
+    about_ = about_.binaryExpr(reached,
+                               [&](double old, double next) { return driven_.reaction->damped_potential(old, next); });
     linearise();
     return move;
   }

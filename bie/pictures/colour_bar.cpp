@@ -11,11 +11,11 @@ namespace vehd {
 namespace {
 
 constexpr double bar_width = 9.0, tick_length = 3.0, text_size = 7.5, title_size = 8.0, title_line = 12.0;
-/// Of the ends that stand for all values beyond them.
+/// Height of the triangles at the ends, which stand for all values beyond them.
 constexpr double end_height = 7.0;
 
 Image gradient(const ColourMap& colours, int height) {
-  // Gnuplot draws no picture of a single column.
+  // Gnuplot does not draw images of a single column.
   constexpr int width = 2;
   Image image{width, height, {}};
   for (int row = 0; row < height; ++row) {
@@ -54,7 +54,7 @@ void draw_colour_bar(Page& page, const ColourBar& bar, const ColourMap& colours,
     page.texts.push_back({line, {box.left, top - 0.5 * title_line}, title_size, TextAnchor::left, "#000000"});
     top -= title_line;
   }
-  // Half a line for a text at either end, or the ends themselves.
+  // Room for half a line of text or for a triangle at either end.
   const double lower = box.bottom + end_height, upper = top - end_height;
   const double left = box.left, right = box.left + bar_width;
   page.images.push_back({gradient(colours, 256), {left, lower, right, upper}});

@@ -57,7 +57,7 @@ std::string hex_of(const Colour& colour) {
 
 namespace {
 
-/// The value below which this share of the weight is.
+/// The value below which this share of the weight lies.
 double quantile(const std::vector<std::pair<double, double>>& sorted, double total, double share) {
   double sum = 0.0;
   for (const auto& [value, weight] : sorted) {
@@ -67,7 +67,7 @@ double quantile(const std::vector<std::pair<double, double>>& sorted, double tot
   return sorted.back().first;
 }
 
-/// The least but for so many.
+/// The least value once n_beyond lower ones are left out.
 double least_but(std::vector<double> values, std::size_t n_beyond) {
   std::ranges::sort(values);
   return values[n_beyond];
@@ -97,7 +97,7 @@ FieldReach reach_of(const Vector& values, const Vector& weights) {
 
 ColourRange robust_range(const std::vector<FieldReach>& shapes, bool sign_matters) {
   constexpr double times_beyond = 0.05;
-  // Where one sign is hardly there, its colours would be lost.
+  // If one sign is hardly present, its half of the diverging colours would be wasted.
   constexpr double other_sign = 0.1;
   constexpr double rounding = 1e-9;
   std::vector<double> lower, upper;

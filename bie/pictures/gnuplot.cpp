@@ -25,7 +25,7 @@ std::optional<PictureFormat> format_of(const std::filesystem::path& file) {
   return std::nullopt;
 }
 
-// What gnuplot makes of a font size and a line width differs by format; measured with gnuplot 5.4.
+// The meaning of font sizes and line widths depends on the format; measured with gnuplot 5.4.
 double gnuplot_font_size(PictureFormat format, double points, double pixels_per_point) {
   switch (format) {
     case PictureFormat::png:
@@ -58,7 +58,7 @@ bool is_letter_or_blank(char byte) {
   return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || byte == ' ';
 }
 
-/// Gnuplot 5.4 writes an & of a text into SVG as it is.
+/// Escapes &, which gnuplot 5.4 copies from a text into SVG.
 std::string well_formed(const std::string& svg) {
   static const std::regex entity("^&(amp|lt|gt|quot|apos|#[0-9]+|#x[0-9a-fA-F]+);");
   constexpr std::size_t longest_entity = 10;
@@ -101,7 +101,7 @@ std::string gnuplot_terminal(PictureFormat format, const PictureSize& size) {
       return fmt::format("set terminal pngcairo rounded size {},{} {}", std::lround(size.width * size.pixels_per_point),
                          std::lround(size.height * size.pixels_per_point), font);
     case PictureFormat::pdf: {
-      // Gnuplot cuts the size down to whole points.
+      // Gnuplot truncates the size to whole points.
       constexpr double points_per_inch = 72.0, more = 0.01;
       return fmt::format("set terminal pdfcairo rounded size {:.5f}in,{:.5f}in {}",
                          (size.width + more) / points_per_inch, (size.height + more) / points_per_inch, font);
@@ -114,7 +114,7 @@ std::string gnuplot_terminal(PictureFormat format, const PictureSize& size) {
 
 std::string gnuplot_quoted(const std::string& text) {
   std::string quoted = "\"";
-  // Digits as well: gnuplot would take one behind an octal number as part of it.
+  // Digits too: gnuplot would read one after an octal number as part of it.
   for (const char byte : text) {
     quoted +=
         is_letter_or_blank(byte) ? std::string(1, byte) : fmt::format("\\{:03o}", static_cast<unsigned char>(byte));

@@ -37,7 +37,7 @@ struct QuantityRow {
   bool is_logarithmic = false;
 };
 
-/// Names of those that a picture chooses among.
+/// Labels of the quantities from which a picture chooses.
 namespace shown_quantity {
 constexpr std::string_view energy = "bending energy", tension = "tension", potential = "potential across the membrane",
                            charge = "charge density", inclination = "inclination", aspect = "aspect ratio",
@@ -88,7 +88,7 @@ const std::vector<QuantityRow>& quantity_rows() {
   return rows;
 }
 
-/// Drifts are worth showing from a tenth of what the verdict allows.
+/// Drifts are shown from a tenth of the limit of the verdict.
 struct LeastDrift {
   const char* column;
   double least;
@@ -122,7 +122,7 @@ bool has_numbers(const std::vector<double>& values) {
   return std::ranges::count_if(values, [](double value) { return std::isfinite(value); }) > 1;
 }
 
-/// A logarithmic axis shows all but zero.
+/// Zero becomes NaN, since a logarithmic axis cannot show it.
 std::vector<double> magnitudes(std::vector<double> values) {
   for (double& value : values) {
     value = value == 0.0 ? std::numeric_limits<double>::quiet_NaN() : std::abs(value);
@@ -130,7 +130,7 @@ std::vector<double> magnitudes(std::vector<double> values) {
   return values;
 }
 
-/// A row within a step, which has no size of its own, shows that of the step.
+/// A row within a step has dt 0 and shows the size of that step.
 std::vector<double> sizes_of_steps(std::vector<double> sizes) {
   for (std::size_t i = sizes.size(); i-- > 1;) {
     if (sizes[i - 1] == 0.0) sizes[i - 1] = sizes[i];
@@ -138,8 +138,8 @@ std::vector<double> sizes_of_steps(std::vector<double> sizes) {
   return sizes;
 }
 
-/// Files of earlier programs have no column of the aspect ratio: the longest over the shortest extent along the axes x,
-/// y and z, which is called so, for of an inclined shape it is something else.
+/// Replaces the aspect ratio in files of earlier versions, which lack it: the longest over the shortest extent along x,
+/// y and z, under another label because the two differ for an inclined shape.
 std::optional<HistoryCurve> ratio_of_extents(const HistoryTable& history) {
   constexpr std::array columns = {"extent_x", "extent_y", "extent_z"};
   if (!std::ranges::all_of(columns, [&](const char* column) { return history.has(column); })) return std::nullopt;
@@ -152,7 +152,7 @@ std::optional<HistoryCurve> ratio_of_extents(const HistoryTable& history) {
   return curve;
 }
 
-/// Turning points after which a curve goes back by a hundredth of its range: less is rounding.
+/// Number of turning points after which a curve goes back by more than a hundredth of its range; less is rounding.
 std::size_t turns_of(const std::vector<double>& values) {
   const auto [least, most] = std::ranges::minmax(values);
   const double back = 0.01 * (most - least);
@@ -170,7 +170,7 @@ std::size_t turns_of(const std::vector<double>& values) {
   return n_turns;
 }
 
-/// The ratio along the field tells prolates from oblates; without a field it is 0, and the ratio of the axes is left.
+/// The ratio along the field distinguishes prolate from oblate shapes; it is 0 without a field, and the other is kept.
 void choose_aspect_ratio(std::vector<HistoryCurve>& curves) {
   if (curves.size() < 2) return;
   const std::vector<double>& along_field = curves.front().values;
@@ -193,7 +193,7 @@ std::vector<HistoryQuantity> history_quantities(const Scene& scene, const Histor
     if (!applies(row.shown, scene)) continue;
     HistoryQuantity found{.label = std::string(row.label), .is_logarithmic = row.is_logarithmic};
     for (const ColumnRow& column : row.columns) {
-      // Files of earlier programs lack columns.
+      // Files of earlier versions lack some columns.
       if (!history.has(column.column)) continue;
       std::vector<double> values = history.column(column.column);
       if (column.column == std::string_view(step_size)) values = sizes_of_steps(std::move(values));
@@ -224,14 +224,14 @@ std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& hist
       const auto found = std::ranges::find(all, label, &HistoryQuantity::label);
       if (found != all.end()) panel.axes.push_back(*found);
     }
-    // Where two have an axis each, one curve is all that can be told apart.
+    // With two axes, only one curve for each can be told apart.
     if (labels.size() > 1) {
       for (HistoryQuantity& axis : panel.axes) axis.curves.resize(1);
     }
     if (!panel.axes.empty()) panels.push_back(std::move(panel));
   };
   add({shown_quantity::energy, shown_quantity::tension});
-  // Several vesicles have no charge density that is that of all.
+  // Several vesicles have no common charge density.
   if (history.has("smallest_gap")) {
     add({shown_quantity::gap, shown_quantity::potential});
     add({shown_quantity::viscosity});
@@ -243,7 +243,7 @@ std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& hist
   add({shown_quantity::inclination, shown_quantity::aspect});
   add({shown_quantity::centroid});
   if (drifts_matter(history)) add({shown_quantity::errors});
-  // Two stand side by side.
+  // Panels form two columns: fills the last row.
   if (panels.size() % 2 == 1) add({shown_quantity::extent});
   return panels;
 }
@@ -254,12 +254,12 @@ HistoryCurve band_of_oscillation(HistoryCurve curve) {
   const std::size_t n = values.size();
   const std::size_t n_turns = turns_of(values);
   if (n_turns <= most_turns || !curve.errors.empty()) return curve;
-  // A period has two turns.
+  // A period has two turning points.
   const std::size_t period = 2 * n / n_turns + 1, stride = std::max<std::size_t>(1, n / places);
   curve.errors.resize(n);
   for (std::size_t i = 0; i < n; i += stride) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
-    // Near the ends the nearest whole period, since the middle of a part of one depends on its phase.
+    // Near the ends the nearest whole period is taken, since the middle of a part of one depends on its phase.
     const std::size_t start = std::min(i - std::min(i, period / 2), n - std::min(n, period + 1));
     for (std::size_t j = start; j < std::min(n, start + period + 1); ++j) {
       if (!std::isfinite(values[j])) continue;
@@ -302,7 +302,7 @@ std::vector<std::size_t> rows_to_draw(std::span<const HistoryCurve> curves, std:
       const std::vector<double>& values = curve.values;
       std::size_t least = start, most = start;
       for (std::size_t i = start; i < std::min(n, start + length); ++i) {
-        // A number takes the place of what is none.
+        // A number replaces NaN.
         if (values[i] < values[least] || std::isnan(values[least])) least = i;
         if (values[i] > values[most] || std::isnan(values[most])) most = i;
       }

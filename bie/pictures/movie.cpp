@@ -16,10 +16,10 @@ namespace {
 
 constexpr std::size_t most_frames = 500;
 constexpr double seconds_of_movie = 10.0;
-/// Slower ones stumble, faster ones hide what happens.
+/// Slower movies stutter, faster ones hide details.
 constexpr double least_frame_rate = 4.0, largest_frame_rate = 25.0;
 
-/// In a folder of its own with names of vehd's: of a path ffmpeg would take "%" as a pattern and "x:" as a protocol.
+/// Runs ffmpeg in a folder with names chosen by vehd: in other paths "%" would be a pattern and "x:" a protocol.
 void run_ffmpeg(std::vector<std::string> arguments, const std::filesystem::path& folder) {
   const std::filesystem::path messages = folder / "messages";
   arguments.insert(arguments.begin(), {"ffmpeg", "-hide_banner", "-loglevel", "error", "-y"});
@@ -35,14 +35,14 @@ void run_ffmpeg(std::vector<std::string> arguments, const std::filesystem::path&
   }
 }
 
-/// Writes an MP4 of so many pictures that plays in about ten seconds.
-/// @param draw      called once for each of them; all have one size
-/// @param file      replaced when the movie is complete
-/// @param progress  is told of every picture
+/// Writes an MP4 of n_frames pictures that plays in about ten seconds.
+/// @param draw      called once for each picture; all have one size
+/// @param file      replaced once the movie is complete
+/// @param progress  updated at every picture
 /// @throws InputError if ffmpeg is missing or reports an error
 void write_movie(std::size_t n_frames, const FrameDrawer& draw, const std::filesystem::path& file, Progress& progress) {
   const TemporaryFolder folder("vehd-movie");
-  // Better known before minutes of drawing than after.
+  // A missing ffmpeg is reported before minutes of drawing, not after.
   run_ffmpeg({"-version"}, folder.path());
   for (std::size_t i = 0; i < n_frames; ++i) {
     progress.update(static_cast<double>(i) / static_cast<double>(n_frames),
@@ -53,7 +53,7 @@ void write_movie(std::size_t n_frames, const FrameDrawer& draw, const std::files
   const double rate =
       std::clamp(static_cast<double>(n_frames) / seconds_of_movie, least_frame_rate, largest_frame_rate);
   const char* movie = "movie.mp4";
-  // Players want even sizes and this way to store colours; with the index in front a movie plays while it loads.
+  // Players require even sizes and this pixel format; with the index in front, a movie plays while it loads.
   run_ffmpeg({"-framerate", fmt::format("{:.4g}", rate), "-i", "%06d.png", "-vf",
               "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-pix_fmt", "yuv420p", "-movflags", "+faststart", movie},
              folder.path());

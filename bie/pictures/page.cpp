@@ -24,7 +24,7 @@ std::string raw_bytes(const Image& image) {
   return bytes;
 }
 
-/// Width of a character in units of the font size, none too small.
+/// Width of a character in units of the font size, estimated from above.
 double character_width(char32_t character) {
   constexpr std::u32string_view narrow = U"ijl.,:;'|!()[] ftI/-", wide = U"mwMW@%\u2212\u00d7=+QOG";
   if (narrow.find(character) != std::u32string_view::npos) return 0.42;
@@ -80,8 +80,7 @@ double text_width(std::string_view enhanced) {
       character = (character << 6) | (static_cast<unsigned char>(enhanced[i + k]) & 0x3f);
     }
     i += static_cast<std::size_t>(length);
-    // Marks of the notation take no room, if not meant as they are; what they lower or raise is smaller and counted in
-    // full.
+    // Unescaped marks of the notation take no room; text that they lower or raise is smaller but counted in full.
     constexpr std::u32string_view marks = U"_^{}\\";
     const bool is_mark = !is_literal && marks.find(character) != std::u32string_view::npos;
     is_literal = is_mark && character == U'\\';

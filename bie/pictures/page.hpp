@@ -9,7 +9,7 @@
 #include "bie/pictures/gnuplot.hpp"
 #include "bie/pictures/renderer.hpp"
 
-/// A picture whose every part has a known place, in points (1/72 inch) from the lower left corner.
+/// A picture whose parts all have known positions, in points (1/72 inch) from the lower left corner.
 namespace vehd {
 
 using PagePoint = std::array<double, 2>;
@@ -26,11 +26,11 @@ struct Box {
   [[nodiscard]] bool holds(const Box& other) const {
     return left <= other.left && other.right <= right && bottom <= other.bottom && other.top <= top;
   }
-  /// A point of it by its shares of the width and of the height.
+  /// The point at these fractions of the width and of the height.
   [[nodiscard]] PagePoint at(double across, double up) const {
     return {left + across * width(), bottom + up * height()};
   }
-  /// From the lower left one round.
+  /// Anticlockwise from the lower left.
   [[nodiscard]] std::vector<PagePoint> corners() const {
     return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
   }
@@ -47,7 +47,7 @@ struct PageText {
   std::string colour = "#000000";
 };
 
-/// A path of straight lines, with a head at its end or not.
+/// A polyline, with an arrow head at its end or not.
 struct PageLine {
   std::vector<PagePoint> points;
   double width = 0.75;
@@ -74,16 +74,16 @@ struct Page {
   std::vector<PageText> texts{};
 };
 
-/// The sides of a box as a line.
+/// The outline of a box.
 PageLine frame_of(const Box& box, double width, const std::string& colour);
 
-/// Room that a line of text takes at most in the font of the pictures (DejaVu Sans), in units of its size.
+/// Upper bound of the width of a line of text in the font of the pictures (DejaVu Sans), in units of the font size.
 double text_width(std::string_view enhanced);
 
-/// Box of a text.
+/// Box that a text occupies.
 Box box_of(const PageText& text);
 
-/// Pixels of a point: of images in every format, and of the whole picture as PNG.
+/// Pixels per point, for images in every format and for the whole picture as PNG.
 constexpr double page_pixels = 4.0;
 
 /// Draws the page through gnuplot.

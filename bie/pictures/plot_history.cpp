@@ -19,24 +19,24 @@ namespace {
 
 constexpr std::array curve_colours = {"#1f5fa8", "#2c8a3d", "#c0392b", "#7a7a7a"};
 constexpr std::array dashes = {"solid", "(12,6)", "(3,4)", "(12,4,3,4)"};
-/// Of one panel with its texts, in points.
+/// Size of one panel with its texts, in points.
 constexpr double panel_width = 255.0, panel_height = 172.0;
-/// Around the axes of a panel.
+/// Margins around the axes of a panel.
 constexpr double panel_left = 52.0, panel_right = 52.0, panel_bottom = 32.0, panel_top = 18.0;
 constexpr double letter_size = 8.0;
 constexpr double curve_width = 1.3;
-/// Of a long curve the least and the greatest value of so many stretches are drawn.
+/// Of a long curve the least and the greatest value of each of these stretches are drawn.
 constexpr std::size_t picture_stretches = 1500;
 
 struct Axis {
   double lower = 0.0, upper = 1.0;
-  std::string ticks;  ///< in gnuplot's words
+  std::string ticks;  ///< in the syntax of gnuplot
   std::string label;
   std::vector<std::string> texts;  ///< of the ticks
   bool is_logarithmic = false;
 };
 
-/// The ends of its band, or the values themselves.
+/// The ends of the error band, or the values if there is none.
 std::vector<double> reach_of_curve(const HistoryCurve& curve) {
   std::vector<double> reach = curve.values;
   for (std::size_t i = 0; i < curve.errors.size(); ++i) {
@@ -73,8 +73,7 @@ Axis axis_of_time(const std::vector<double>& times, const std::string& label, bo
   return axis;
 }
 
-/// Data of a curve and of its band of errors; a line ends where the angle of an axis comes round from one side to the
-/// other.
+/// Data of a curve and of its error band; the line is interrupted where the angle of an axis wraps around.
 std::string data_block(int number, const std::vector<double>& times, const HistoryCurve& curve, double half_turn) {
   const std::vector<double>& values = curve.values;
   std::string block = fmt::format("$curve{} << END\n", number);
@@ -101,7 +100,7 @@ struct Drawing {
                        dashes[curve], curve_colours[curve]);
   }
 
-  /// Behind a curve what it may be wrong by; nothing of a run without error bars.
+  /// Error band behind a curve; empty without error bars.
   [[nodiscard]] std::string band(const HistoryCurve& curve, std::size_t colour, const char* axes) const {
     if (curve.errors.empty()) return {};
     return fmt::format(
@@ -113,7 +112,7 @@ struct Drawing {
   static constexpr double pixels = 4.0;
 };
 
-/// Ticks of an axis and its label beside them: gnuplot would take the room for each label from the bytes of its ticks.
+/// Ticks of an axis and its label beside them: gnuplot would derive the room for the label from the bytes of the ticks.
 std::string axis_script(const Axis& axis, const char* name, const char* colour) {
   constexpr double axes_width = panel_width - panel_left - panel_right;
   double ticks_width = 0.0;
@@ -126,14 +125,13 @@ std::string axis_script(const Axis& axis, const char* name, const char* colour) 
       name, axis.lower, axis.upper, axis.ticks, colour, gnuplot_quoted(axis.label), on_the_right ? 1.0 + away : -away);
 }
 
-constexpr const char* fresh_panel =
+constexpr const char* panel_reset =
     "unset label; unset ytics; unset y2tics; unset logscale y; unset key; set format y '%g'\n";
-/// Above the axes.
 constexpr const char* key_above =
     "set key at graph 0.5,1.075 center center horizontal samplen 1.4 width -1.5 maxrows 1\n";
 
 std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
-  std::string data, settings = fresh_panel, plot;
+  std::string data, settings = panel_reset, plot;
   for (std::size_t i = 0; i < panel.axes.size(); ++i) {
     const HistoryCurve& curve = panel.axes[i].curves.front();
     settings += axis_script(axis_of(reach_of_curve(curve), with_unit(curve.label, panel.axes[i].unit), 0.06),
@@ -149,7 +147,7 @@ std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
   return data + settings + plot + "\n";
 }
 
-/// Whole powers of ten; what is far below the largest does not matter.
+/// Axis of whole powers of ten; values far below the largest are cut off.
 std::string logarithmic_axis(const std::vector<HistoryCurve>& curves, const std::string& label) {
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (const HistoryCurve& curve : curves) {
@@ -166,7 +164,7 @@ std::string logarithmic_axis(const std::vector<HistoryCurve>& curves, const std:
   Axis axis{std::pow(10.0, lower), std::pow(10.0, upper), {}, label, {}};
   for (double power = upper; power >= lower; power -= upper - lower > 5.0 ? 2.0 : 1.0) {
     places.push_back(fmt::format("'10^{{{0:.0f}}}' 1e{0:.0f}", power));
-    // As wide as it is shown: the power is smaller.
+    // Sets the width: the printed power is smaller.
     axis.texts.push_back("1e-12");
   }
   axis.ticks = fmt::format("({})", fmt::join(places, ", "));
@@ -188,7 +186,7 @@ std::string panel_of_common_axis(const HistoryQuantity& quantity, Drawing& drawi
   const std::string label = with_unit(quantity.label, quantity.unit);
   const std::string axis = quantity.is_logarithmic ? logarithmic_axis(quantity.curves, label)
                                                    : axis_script(axis_of(all, label, 0.06), "y", "#000000");
-  return data + fresh_panel + key_above + axis + plot + "\n";
+  return data + panel_reset + key_above + axis + plot + "\n";
 }
 
 }  // namespace

@@ -19,17 +19,17 @@ namespace vehd {
 namespace {
 
 constexpr int picture_grid_order = 95;
-/// Room around the largest shape, as a share of it.
+/// Factor from the size of a shape to that of its cell.
 constexpr double cell_margin = 1.03;
 constexpr double time_size = 8.5;
 constexpr const char* cut_colour = "#202020";
 constexpr const char* wall_colour = "#606060";
 
-/// Everything that is known about a picture before its parts have places.
+/// Content of a picture before its parts have positions.
 struct ShapesPicture {
   std::vector<Shape> shapes;
-  std::array<double, 2> room{};  ///< half extents that every shape gets at least
-  double label_room = 0.0;       ///< and the text below it
+  std::array<double, 2> room{};  ///< least half extents of every shape
+  double label_room = 0.0;       ///< least width of the text below it
   std::vector<std::string> times;
   Matrix3 view;
   ShownUnit length;
@@ -47,7 +47,7 @@ std::vector<std::string> time_texts(std::vector<double> times, const OutputUnits
   return texts;
 }
 
-/// @param range  of the field, in numbers of the scene
+/// @param range  of the field, in units of the scene
 void colour_shapes(ShapesPicture& picture, const ShapeField& field, const ColourRange& range,
                    const OutputUnits& units) {
   if (field.values == ShapeField::Values::none) {
@@ -73,7 +73,7 @@ ColourRange range_of(const std::vector<Shape>& shapes, const ShapeField& field) 
   return robust_range(reaches, field.sign_matters);
 }
 
-/// From the middle of a shape to a wall that is seen edge on, and not farther than the shape is large.
+/// Vector from the middle of a shape to a wall; none unless the wall is seen edge on and close enough to be shown.
 std::optional<Eigen::Vector2d> foot_on_wall(const Scene& scene, const Shape& shape, const Matrix3& view) {
   constexpr double edge_on = 0.05, farthest = 2.0;
   if (!scene.wall) return std::nullopt;
@@ -85,7 +85,7 @@ std::optional<Eigen::Vector2d> foot_on_wall(const Scene& scene, const Shape& sha
   return foot;
 }
 
-/// Half width and half height of a shape with such a wall about its middle, and some room.
+/// Half width and half height of a shape about its middle, with the wall of foot_on_wall and a margin.
 Eigen::Vector2d extent_of(const Scene& scene, const Shape& shape, const Matrix3& view) {
   Eigen::Vector2d extent = projected_extent(shape.mesh, view);
   if (const auto foot = foot_on_wall(scene, shape, view)) extent = extent.cwiseMax(foot->cwiseAbs());
@@ -110,7 +110,7 @@ ShapesContent content_of(const ShapesPicture& picture, const Scene& scene, const
   return content;
 }
 
-/// The edge of a cut membrane.
+/// Draws the edge of a cut membrane.
 void add_cut(Page& page, const Shape& shape, const Matrix3& view, const Box& cell, double scale) {
   const double x = 0.5 * (cell.left + cell.right), y = 0.5 * (cell.bottom + cell.top);
   const Matrix cut = scale * cut_lines(shape.mesh, view);
@@ -119,7 +119,7 @@ void add_cut(Page& page, const Shape& shape, const Matrix3& view, const Box& cel
   }
 }
 
-/// A wall as the line through its foot that crosses the cell.
+/// Draws a wall as the line through its foot that crosses the cell.
 void add_wall(Page& page, const Eigen::Vector2d& foot, const Box& cell, double scale) {
   const Eigen::Vector2d middle(0.5 * (cell.left + cell.right), 0.5 * (cell.bottom + cell.top));
   const Eigen::Vector2d along = Eigen::Vector2d(-foot.y(), foot.x()).normalized();
@@ -229,7 +229,7 @@ FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::
   ReadingNotes notes;
   const OutputUnits units = units_of_run(task.paths, scene.units, notes);
   const ShapeField& field = field_of(task.style, run.snapshot(snapshots.front()));
-  // For what all frames share a coarse grid is enough.
+  // A coarse grid is enough for the quantities that all frames share.
   constexpr int coarse_order = 24;
   std::vector<ShapeCoefficients> read;
   std::vector<Shape> shapes;

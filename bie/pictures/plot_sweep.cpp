@@ -43,7 +43,7 @@ std::vector<std::size_t> wanted_columns(const SweepPlotTask& task, const SweepRo
   return wanted;
 }
 
-/// Where the meaning of a column changes within its values.
+/// The usual border of a column, if its values lie on both sides.
 std::optional<double> border_among(const std::vector<double>& numbers, const std::string& header) {
   const auto [least, most] = finite_range(numbers);
   const auto border = usual_border(header, least, most);
@@ -55,7 +55,7 @@ void draw_line_panel(Page& page, const SweepRows& rows, std::size_t column, cons
   const std::string& header = rows.columns[column];
   std::vector<double> numbers = rows.numbers(column);
   if (!border) border = border_among(numbers, header);
-  // The axis has it in its range and knows its place.
+  // Extends the axis to the border, whose place it gives.
   if (border) numbers.push_back(*border);
   const SweepAxis y = axis_of_numbers(column_label(header), numbers);
   draw_sweep_frame(page, box, x, y, true);
@@ -68,7 +68,7 @@ void draw_line_panel(Page& page, const SweepRows& rows, std::size_t column, cons
     if (line.points.size() > 1) page.lines.push_back(line);
     line.points.clear();
   };
-  // In the order of the key, whatever that of the rows.
+  // In the order of the key, whatever the order of the rows.
   std::vector<std::size_t> order(rows.n_rows());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return x.places[i]; });

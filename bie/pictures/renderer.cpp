@@ -12,7 +12,7 @@ namespace {
 /// Samples per pixel along each direction.
 constexpr int oversampling = 3;
 
-/// Light adds up in linear intensity, not in the numbers of a display.
+/// Light adds up in linear intensity, not in displayed values.
 double to_linear(double displayed) { return std::pow(displayed, 2.2); }
 double to_displayed(double linear) { return std::pow(std::clamp(linear, 0.0, 1.0), 1.0 / 2.2); }
 
@@ -28,7 +28,7 @@ double power_of_36(double base) {
   return ninth * ninth * ninth * ninth;
 }
 
-/// The inside of a cut membrane: paler, so that it is not taken for the outside.
+/// Colour of the inside of a cut membrane: paler, so that it is not taken for the outside.
 Colour inside_colour(const Colour& base) {
   constexpr double kept = 0.6;
   Colour colour{};
@@ -36,7 +36,7 @@ Colour inside_colour(const Colour& base) {
   return colour;
 }
 
-/// A colour map in linear intensity, read from a table: powers took most of the time of a picture.
+/// A colour map in linear intensity, tabulated because powers took most of the time of a picture.
 class LinearColours {
  public:
   LinearColours(const ColourMap& colours, bool inside) : nodes_(kNodes + 1) {
@@ -65,7 +65,7 @@ class LinearColours {
 /// separates the shape from the white paper.
 class Light {
  public:
-  /// Linear intensity. @param base  likewise
+  /// Colour in linear intensity. @param base  in linear intensity
   [[nodiscard]] Colour on(const Colour& base, const Vector3& normal) const {
     const double facing = std::clamp(normal.z(), 0.0, 1.0);
     const double wrapped = std::max(0.0, (normal.dot(key_) + 0.25) / 1.25);
@@ -83,7 +83,7 @@ class Light {
   Vector3 between_ = (key_ + Vector3::UnitZ()).normalized();  ///< key light and eye
 };
 
-/// What is seen at a sample.
+/// The visible surface at a sample.
 struct Seen {
   Eigen::Vector3f normal;  ///< not yet of unit length
   float shade;
@@ -102,7 +102,7 @@ class Canvas {
   [[nodiscard]] int height() const { return height_; }
 
   void triangle(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& c) {
-    // Behind the rest of a whole closed surface.
+    // Hidden behind the rest of a whole closed surface.
     if (!is_cut() && a.normal.z() < 0.0 && b.normal.z() < 0.0 && c.normal.z() < 0.0) return;
     const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
     if (area == 0.0) return;
@@ -117,7 +117,7 @@ class Canvas {
         const double u = ((b.x - x) * (c.y - y) - (c.x - x) * (b.y - y)) * per_area;
         const double v = ((c.x - x) * (a.y - y) - (a.x - x) * (c.y - y)) * per_area;
         const double w = 1.0 - u - v;
-        // Rounding must not leave a sample between two triangles to neither.
+        // Rounding must not exclude a sample on a common edge from both triangles.
         constexpr double rounding = -1e-9;
         if (u < rounding || v < rounding || w < rounding) continue;
         const double depth = u * a.depth + v * b.depth + w * c.depth;
@@ -137,7 +137,7 @@ class Canvas {
     for (int row = 0; row < image.height; ++row) {
       for (int column = 0; column < image.width; ++column) {
         for (const double linear : pixel(row, column, palette)) {
-          // Paper is most of a picture.
+          // Most of a picture is white paper.
           const double displayed = linear >= 1.0 ? 1.0 : to_displayed(linear);
           image.rgb.push_back(static_cast<std::uint8_t>(std::lround(255.0 * displayed)));
         }
@@ -192,8 +192,8 @@ class Canvas {
     return sum;
   }
 
-  /// Whether two samples are of one piece of surface that hardly bends between them, nor changes its shade: what lies
-  /// between them then has the light of their middle to a level of 255.
+  /// Do two samples belong to one piece of surface whose normal and shade hardly change between them? Then all samples
+  /// between them have the light of their middle to one level of 255.
   [[nodiscard]] bool is_smooth(std::size_t a, std::size_t b) const {
     constexpr float bend = 3e-4F, change = 4e-3F;
     const Eigen::Vector3f &n = seen_[a].normal, &m = seen_[b].normal;
@@ -203,7 +203,7 @@ class Canvas {
   }
 
   int width_, height_;
-  double nearest_;  ///< what is nearer is left out
+  double nearest_;  ///< parts nearer to the eye are left out
   std::vector<double> depth_;
   std::vector<Seen> seen_;
 };
@@ -238,7 +238,7 @@ Matrix cut_lines(const RenderMesh& mesh, const Matrix3& view) {
     std::size_t n_crossed = 0;
     for (std::size_t edge = 0; edge < 3; ++edge) {
       const auto a = points.row(mesh.triangles[i + edge]), b = points.row(mesh.triangles[i + (edge + 1) % 3]);
-      // A point in the plane is behind it, for every triangle that has it.
+      // A vertex in the plane counts as behind it in all its triangles.
       if ((a(2) > 0.0) == (b(2) > 0.0)) continue;
       const double t = a(2) / (a(2) - b(2));
       line[2 * n_crossed] = a(0) + t * (b(0) - a(0));

@@ -28,16 +28,16 @@ struct RenderTask {
   Matrix3 view = Matrix3::Identity();  ///< rows: right, up, towards the eye
   double scale = 1.0;                  ///< pixels per unit of length
   int width = 0, height = 0;           ///< pixels; the origin is in the middle
-  bool cut = false;                    ///< leaves out all that is nearer to the eye than the origin: the inside shows
+  bool cut = false;                    ///< leaves out all parts nearer to the eye than the origin: the inside shows
 };
 
-/// Half width and half height that the mesh covers about the origin in a view, in units of length.
+/// Half width and half height of the mesh about the origin in a view, in units of length.
 Eigen::Vector2d projected_extent(const RenderMesh& mesh, const Matrix3& view);
 
 /// Parallel projection on white, lit from the upper left, antialiased; the inside is paler than the outside.
 Image render(const RenderMesh& mesh, const ColourMap& colours, const RenderTask& task);
 
-/// Where the mesh meets the plane through the origin across the view: pieces of line in (right, up), each
+/// Intersection of the mesh with the plane through the origin perpendicular to the view: segments in (right, up), each
 /// [x1, y1, x2, y2].
 Matrix cut_lines(const RenderMesh& mesh, const Matrix3& view);
 

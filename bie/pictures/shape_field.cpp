@@ -15,7 +15,7 @@
 namespace vehd {
 namespace {
 
-/// Forces that a snapshot may have; the electric one is that on the membrane's charges, which the membrane hands on.
+/// Forces that a snapshot may contain, with their signs in f = f_b + f_λ − f_E and the contact force.
 constexpr std::array forces = {std::pair{"force_bending", 1.0}, std::pair{"force_tension", 1.0},
                                std::pair{"force_electric", -1.0}, std::pair{"force_contact", 1.0}};
 
@@ -46,7 +46,7 @@ Vector values_of(const VesicleCoefficients& read, const ShapeField& field, const
   return Vector::Zero(surface.n_points());
 }
 
-/// Values on the grid, then means of the circles next to the north and the south pole.
+/// Values on the grid, then their means over the circles next to the north and the south pole.
 Matrix with_mean_poles(const Matrix& values, int n_phi) {
   Matrix result(values.rows() + 2, values.cols());
   result.topRows(values.rows()) = values;
@@ -89,7 +89,7 @@ VesicleCoefficients read_vesicle(const RunSnapshot& snapshot, const ShapeField& 
     read.field.rightCols<1>() = snapshot.coefficients(std::string(dataset), 1, vesicle);
   }
   if (field.values == Values::force) {
-    // The whole force of the membrane on the fluid.
+    // The total force of the membrane on the fluid.
     read.field = Matrix::Zero(n, 3);
     for (const auto& [name, sign] : forces) {
       if (snapshot.has_field(name)) read.field += sign * snapshot.coefficients(name, 3, vesicle);
@@ -98,7 +98,7 @@ VesicleCoefficients read_vesicle(const RunSnapshot& snapshot, const ShapeField& 
   return read;
 }
 
-/// One vesicle where it is.
+/// One vesicle, not shifted.
 Shape shape_of(const VesicleCoefficients& read, const ShapeField& field, int grid_order) {
   const Matrix& position = read.position;
   const int order = order_of(position.rows());

@@ -15,21 +15,21 @@ struct ShapeField {
   enum class Values {
     none,
     curvature,
-    force,      ///< size of the sum of all forces
-    dataset,    ///< those of one dataset
+    force,      ///< magnitude of the sum of all forces
+    dataset,    ///< values of one dataset
     amplitude,  ///< |z| of two datasets, its real and imaginary part
-    phase       ///< arg z of them, in degrees
+    phase       ///< arg z of the same, in degrees
   };
 
   std::string_view name;  ///< on the command line
   Values values;
   std::string_view text{};                     ///< in pictures
-  std::string_view dimension = "1";            ///< by its name in scene/units.hpp
-  std::array<std::string_view, 2> datasets{};  ///< in run.h5; empty of what has none
-  bool sign_matters = false;                   ///< even where the values of a run have one sign alone
+  std::string_view dimension = "1";            ///< its name in scene/units.hpp
+  std::array<std::string_view, 2> datasets{};  ///< in run.h5; empty if none is read
+  bool sign_matters = false;                   ///< colours diverge even if the values of a run have one sign
 };
 
-/// All of them. A new one is a row here.
+/// All fields. A new one is a row here.
 inline constexpr std::array shape_fields = {
     ShapeField{"none", ShapeField::Values::none},
     ShapeField{"V_m", ShapeField::Values::dataset, "V_m", "potential", {"Vm"}, true},
@@ -47,30 +47,29 @@ inline constexpr std::array shape_fields = {
     ShapeField{"bending_modulus", ShapeField::Values::dataset, "κ_B", "energy", {"bending_modulus"}},
     ShapeField{"spontaneous_curvature", ShapeField::Values::dataset, "c", "1/length", {"spontaneous_curvature"}}};
 
-/// @param name  of one of them
+/// @param name  name of one of the fields
 const ShapeField& shape_field(std::string_view name);
 
-/// V_m, or its amplitude in an averaged field, without it the tension, without that the curvature.
+/// V_m, or its amplitude in an averaged field; without it the tension; without both the curvature.
 const ShapeField& default_field(const RunSnapshot& snapshot);
 
-/// @throws InputError that names the fields of the snapshot, if it does not have the dataset
+/// @throws InputError that names the fields of the snapshot, if it lacks the dataset
 void require_field(const RunSnapshot& snapshot, const ShapeField& field);
 
-/// One snapshot with all its vesicles, the centroid of their membranes together in the origin.
+/// One snapshot with all its vesicles, relative to the common centroid of their membranes.
 struct Shape {
   double time = 0.0;
   RenderMesh mesh;
-  Vector values;     ///< of the field, in numbers of the scene; zero without one
-  Vector weights;    ///< area that each value stands for
+  Vector values;     ///< of the field, in units of the scene; zero without one
+  Vector weights;    ///< area that each value represents
   Matrix3 gyration;  ///< mean of x x^T over the area
-  Vector3 centre;    ///< where that centroid is
+  Vector3 centre;    ///< the common centroid
 };
 
 /// Data of one vesicle for a picture.
 struct VesicleCoefficients {
   Matrix position;  ///< [n_coefficients x 3]
-  Matrix field;     ///< [n_coefficients x 1]; of the force x 3; real and imaginary part of what a complex amplitude
-                    ///< gives; empty of what is computed from the position
+  Matrix field;     ///< [n_coefficients x 1]; forces x 3; complex amplitudes x 2 (real, imaginary); empty if not read
 };
 
 /// Data of one snapshot for a picture.
@@ -80,8 +79,8 @@ struct ShapeCoefficients {
 };
 ShapeCoefficients read_shape(const RunSnapshot& snapshot, const ShapeField& field);
 
-/// @param field  that was read
-/// @param grid_order  degree of the grid that is drawn, at least that of the snapshot
+/// @param field       as in read_shape
+/// @param grid_order  degree of the drawn grid, raised to that of the snapshot if lower
 Shape shape_of(const ShapeCoefficients& read, const ShapeField& field, int grid_order);
 
 }  // namespace vehd

@@ -9,28 +9,28 @@
 namespace vehd {
 namespace {
 
-/// Of the grid on which shapes are compared: no picture needs finer differences.
+/// Degree of the grid on which shapes are compared: no picture needs finer differences.
 constexpr int outline_order = 16;
 /// Directions from which a shape is measured, over a half sphere.
 constexpr int n_directions = 16;
-/// More snapshots than this are not all read.
+/// Largest number of snapshots that are read.
 constexpr std::size_t most_read = 240;
 
-/// Evenly over the half sphere above z = 0 (a Fibonacci spiral).
+/// Direction i, spread evenly over the half sphere above z = 0 (a Fibonacci spiral).
 Vector3 direction_number(int i) {
   const double z = (i + 0.5) / n_directions, radius = std::sqrt(1.0 - z * z);
   const double angle = 2.0 * std::numbers::pi * i / std::numbers::phi;
   return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
-/// Numbers that say how far a shape reaches, whatever its place and its grid: lengths.
+/// Lengths that describe the extent of a shape, independent of its position and its grid.
 Vector outline_of(const RunReader& run, std::size_t snapshot) {
   const ShapeField& none = shape_field("none");
   const Shape shape = shape_of(read_shape(run.snapshot(snapshot), none), none, outline_order);
   const Vector shares = shape.weights / shape.weights.sum();
   Vector outline(4 * n_directions);
   for (int i = 0; i < n_directions; ++i) {
-    // Extents see the hull alone; the moments see dimples as well.
+    // Extents depend only on the hull; the moments also depend on dimples.
     const Vector heights = shape.mesh.points * direction_number(i);
     const Vector squares = heights.cwiseAbs2();
     outline.segment<4>(4 * i) << heights.maxCoeff(), heights.minCoeff(), std::sqrt(squares.dot(shares)),
@@ -72,7 +72,7 @@ std::vector<std::size_t> spread_by_change(const std::vector<double>& times, cons
     for (std::size_t i = chosen.back() + 1; i + 1 < n; ++i) {
       if (best == chosen.back() || distance(i) < distance(best)) best = i;
     }
-    // Each once, and in order: what the one before has taken is not taken again.
+    // In order, each once: snapshots up to the last chosen one are not considered.
     if (best != chosen.back()) chosen.push_back(best);
   }
   chosen.push_back(n - 1);

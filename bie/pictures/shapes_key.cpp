@@ -18,7 +18,7 @@ constexpr const char* flow_colour = "#1f5fa8";
 constexpr const char* gravity_colour = "#444444";
 constexpr double word_height = 13.0;
 constexpr double word_size = 8.0;
-/// Of a unit vector that is drawn as a mark if less of it is in the plane of the picture.
+/// A unit vector is drawn as a mark if its part in the plane of the picture is shorter.
 constexpr double hardly_seen = 0.25;
 
 using Plane = Eigen::Vector2d;
@@ -58,7 +58,7 @@ void add_mark(Page& page, const Plane& centre, bool towards_eye, const char* col
   }
 }
 
-/// The word on top of an item; returns the middle of what is left.
+/// Adds the word at the top of an item; returns the middle of the rest of its box.
 Plane add_word(Page& page, const Box& box, const std::string& word, const char* colour) {
   page.texts.push_back(
       {word, {middle_of(box).x(), box.top - 0.5 * word_height}, word_size, TextAnchor::centre, colour});
@@ -92,7 +92,7 @@ void draw_vector(Page& page, const Plane& centre, const Vector3& vector, const M
   }
 }
 
-/// Arrows from a line across the flow.
+/// Draws a velocity profile: arrows from a line across the flow.
 void draw_profile(Page& page, const Plane& centre, const FlowScene& flow, const Matrix3& view, const Vector3& across) {
   constexpr double reach = 16.0, longest = 17.0;
   const double radius = flow.kind == FlowKind::poiseuille ? flow.radius : 1.0;
@@ -100,7 +100,7 @@ void draw_profile(Page& page, const Plane& centre, const FlowScene& flow, const 
   constexpr std::array places{-0.9, -0.45, 0.0, 0.45, 0.9};
   const auto velocity = [&](double place) -> Vector3 { return flow_velocity(flow, place * radius * across); };
   for (const double place : places) fastest = std::max(fastest, velocity(place).norm());
-  // A flow to one side starts left of the middle.
+  // All arrows of a Poiseuille flow point to one side: they start upstream of the middle.
   const Plane shift = flow.kind == FlowKind::poiseuille
                           ? Plane(-0.5 * longest * (view * velocity(0.0)).head<2>() / std::max(fastest, 1e-300))
                           : Plane(Plane::Zero());
@@ -113,7 +113,7 @@ void draw_profile(Page& page, const Plane& centre, const FlowScene& flow, const 
   }
 }
 
-/// Arrows around a circle in the plane of the picture; false if nothing moves there within the plane.
+/// Draws arrows around a circle in the plane of the picture; false if the flow has no part in this plane.
 bool draw_ring(Page& page, const Plane& centre, const FlowScene& flow, const Matrix3& view) {
   constexpr int n = 8;
   constexpr double radius = 13.0, longest = 9.0;
@@ -148,7 +148,7 @@ void draw_flow(Page& page, const Plane& centre, const FlowScene& flow, const Mat
       return draw_profile(page, centre, flow, view, Vector3::UnitY());
   }
   if (draw_ring(page, centre, flow, view)) return;
-  // Nothing moves within the plane: as on the side of the eye.
+  // The flow has no part in the plane: shows it on the side of the eye.
   const Vector3 near = flow_velocity(flow, view.row(2).transpose());
   if (near.norm() > 0.0) draw_vector(page, centre, near, view, flow_colour, false);
 }

@@ -15,11 +15,11 @@ enum class KeyItem { axes, field, gravity, flow, scale_bar };
 /// The items of a scene, in order.
 std::vector<KeyItem> key_items(const Scene& scene);
 
-/// Room that an item takes, in points.
+/// Height of an item, in points.
 double key_height(KeyItem item);
 constexpr double key_width = 60.0;
 
-/// Everything that items need to know.
+/// Input of all items.
 struct KeyTask {
   const Scene& scene;
   Matrix3 view;      ///< rows: right, up, towards the eye

@@ -8,21 +8,21 @@ namespace vehd {
 namespace {
 
 constexpr double margin = 5.0, gap = 10.0;
-/// Height of a page over its width, at most.
+/// Largest ratio of the height of a page to its width.
 constexpr double tallest = 0.55;
 constexpr double least_bar_height = 84.0, highest_bar = 170.0;
-/// A further row pays only if the shapes become larger by this factor.
+/// A further row is used only if it enlarges the shapes by this factor.
 constexpr double worth_a_row = 1.25;
 constexpr double largest_cell = 190.0;
 
 double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-/// A number of rows and a place of the key, with the sizes that follow.
+/// A number of rows and a position of the key, with the resulting sizes.
 struct Arrangement {
   const ShapesContent& content;
   std::size_t n_rows;
   bool key_below;
-  std::vector<double> widths, heights;  ///< of columns and rows, in numbers of the scene
+  std::vector<double> widths, heights;  ///< of columns and rows, in units of the scene
   double scale = 0.0;                   ///< points per length of the scene
 
   Arrangement(const ShapesContent& all, std::size_t rows, bool below)
@@ -65,7 +65,7 @@ struct Arrangement {
     return sum_of(heights) * scale + static_cast<double>(n_rows) * shape_label_height;
   }
 
-  /// How large shapes are shown, with what that costs.
+  /// Scale of the shapes, reduced by factors for unused room, for further rows and for excess width.
   [[nodiscard]] double score() const {
     constexpr double rounding = 0.01, too_wide = 1e-3, least_filled = 0.4;
     const bool fits = 2.0 * margin + beside() + shapes_width() <= content.page_width + rounding &&
@@ -90,7 +90,7 @@ Arrangement best_arrangement(const ShapesContent& content) {
   return *std::ranges::max_element(all, {}, &Arrangement::score);
 }
 
-/// Images end on whole pixels.
+/// Rounds down to whole pixels, on which images end.
 double on_pixels(double length) { return std::floor(length * page_pixels) / page_pixels; }
 
 void place_shapes(const ShapesContent& content, const Arrangement& best, const Box& room, ShapesLayout& layout) {
@@ -108,7 +108,7 @@ void place_shapes(const ShapesContent& content, const Arrangement& best, const B
     left += best.column_width(column) + spare;
     const double width = on_pixels(2.0 * content.half_extents[i][0] * best.scale);
     const double height = on_pixels(2.0 * content.half_extents[i][1] * best.scale);
-    // Rounding may move the image by a pixel: up, where one is left out for it.
+    // Rounding may lower the image by up to a pixel: it is raised by one, and its height is one less.
     constexpr double pixel = 1.0 / page_pixels;
     Box cell;
     cell.left = on_pixels(middle - 0.5 * width);

@@ -13,7 +13,7 @@
 namespace vehd {
 namespace {
 
-/// The sign that stands before numbers in print.
+/// Replaces a hyphen by a minus sign.
 std::string with_minus(std::string text) {
   if (text.starts_with('-')) text.replace(0, 1, "\u2212");
   return text;
@@ -21,7 +21,7 @@ std::string with_minus(std::string text) {
 
 int exponent_of(double value) { return value == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value)))); }
 
-/// Numbers beyond these are written with a power of ten.
+/// Numbers outside this range are written with a power of ten.
 constexpr double longest = 1e5, shortest = 1e-3;
 
 /// A number with this many digits: "0.25", "1.56 × 10^{-5}".

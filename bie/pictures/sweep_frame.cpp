@@ -41,7 +41,7 @@ std::string tick_text(const std::string& value) {
   return quantity ? fmt::format("{:.3g}", quantity->number) : gnuplot_literal(value);
 }
 
-/// Few enough to be read.
+/// Few enough to be legible.
 constexpr std::size_t most_ticks = 6;
 
 std::string label_of(const std::string& key, const std::optional<KeyNumbers>& numbers) {
@@ -95,7 +95,7 @@ SweepAxis between(const std::string& label, const std::vector<double>& values, d
   return axis;
 }
 
-/// Whether values rise by even steps, to the digits that a table may have lost.
+/// Do values rise in even steps, to the digits that a table may have lost?
 bool are_even(const std::vector<double>& values) {
   if (values.size() < 2) return false;
   constexpr double lost = 0.01;
@@ -156,7 +156,7 @@ constexpr double sweep_panel_width = 255.0, sweep_panel_height = 172.0;
 
 constexpr double sweep_text = 8.0, sweep_tick = 3.0;
 
-/// As an area: lines would lie above the points.
+/// An area, because lines would be drawn above the points.
 void draw_pale_line(Page& page, const Box& line) { page.areas.push_back({line.corners(), "#e4e4e4"}); }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace vehd {
 namespace {
 
-/// Different values of a key, in the order of the rows.
+/// Distinct values of a key, in the order of the rows.
 std::vector<std::string> values_of_key(const SweepRows& rows, std::size_t key) {
   std::vector<std::string> values;
   for (std::size_t row = 0; row < rows.n_rows(); ++row) {
@@ -36,7 +36,7 @@ class SweepCells {
   [[nodiscard]] std::size_t row(std::size_t i, std::size_t j) const { return i * ny_ + j; }
   [[nodiscard]] double value(std::size_t i, std::size_t j) const { return rows_.number(row(i, j), column_); }
   [[nodiscard]] bool is_completed(std::size_t i, std::size_t j) const { return rows_.is_completed(row(i, j)); }
-  /// Of a corner: that of cell (i, j) to the lower left.
+  /// Lower left corner of cell (i, j).
   [[nodiscard]] PagePoint corner(std::size_t i, std::size_t j) const {
     return box_.at(static_cast<double>(i) / static_cast<double>(nx_),
                    static_cast<double>(j) / static_cast<double>(ny_));
@@ -69,7 +69,7 @@ void draw_cells(Page& page, const SweepCells& cells, const ColourRange& range, c
       const PagePoint high = cells.corner(i + 1, j + 1);
       if (std::isfinite(value)) {
         const double share = (value - range.lower) / (range.upper - range.lower);
-        // The next cell lies above the seam.
+        // The next cell is drawn over the overlap, which hides the seam.
         constexpr double seam = 0.4;
         const double right = i + 1 < cells.nx() ? high[0] + seam : high[0];
         const double top = j + 1 < cells.ny() ? high[1] + seam : high[1];
@@ -88,7 +88,7 @@ void draw_cells(Page& page, const SweepCells& cells, const ColourRange& range, c
   }
 }
 
-/// The edges of cells between which the column passes the value.
+/// Draws the edges of cells between which the column crosses the value.
 void draw_border(Page& page, const SweepCells& cells, double border) {
   const auto differ = [&](double a, double b) {
     return std::isfinite(a) && std::isfinite(b) && (a < border) != (b < border);
@@ -130,7 +130,7 @@ void draw_sweep_map(const SweepRows& rows, std::size_t column, std::optional<dou
     for (const PagePoint& at : curve) {
       line.points.push_back(box.at(at[0], at[1]));
     }
-    // A white edge tells it from red cells.
+    // A white edge separates the curve from red cells.
     PageLine edge = line;
     edge.width = 3.2;
     edge.colour = "#ffffff";

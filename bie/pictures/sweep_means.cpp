@@ -29,7 +29,7 @@ std::vector<std::size_t> other_keys(const SweepRows& rows, std::size_t seed) {
   return others;
 }
 
-/// Of the numbers that are there.
+/// Mean and standard error of the mean.
 void average(const std::vector<double>& numbers, SweepMean& mean) {
   mean.n_runs = static_cast<int>(numbers.size());
   const double n = static_cast<double>(numbers.size());
@@ -42,7 +42,7 @@ void average(const std::vector<double>& numbers, SweepMean& mean) {
   if (numbers.size() > 1) mean.error = std::sqrt(squares / (n - 1.0) / n);
 }
 
-/// Values of the second key, or one that is empty.
+/// Distinct values of the second key; one empty value without it.
 std::vector<std::string> series_of(const std::vector<SweepMean>& means) {
   std::vector<std::string> series;
   for (const SweepMean& mean : means) {
@@ -52,7 +52,7 @@ std::vector<std::string> series_of(const std::vector<SweepMean>& means) {
   return series;
 }
 
-/// Ends of the bars, NaN where there is none.
+/// Ends of the bars, NaN without a mean.
 std::vector<double> ends_of(const std::vector<SweepMean>& means, double sign) {
   std::vector<double> ends;
   for (const SweepMean& mean : means) ends.push_back(mean.mean + (mean.n_runs > 1 ? sign * mean.error : 0.0));

@@ -56,7 +56,7 @@ bool is_sweep(const std::filesystem::path& directory) {
 
 namespace {
 
-/// Where the values of one key stand in a map.
+/// Positions of the values of one key in a map.
 class CellScale {
  public:
   CellScale(const SweepRows& rows, std::size_t key, const std::string& file) : key_(rows.keys[key]) {
@@ -73,7 +73,7 @@ class CellScale {
     if (values_.size() < 2) throw InputError(fmt::format("{}: \"{}\" has a single value", file, key_.name));
   }
 
-  /// 0 ... 1 of the map; outside of it, or NaN, where the value is not on it.
+  /// Position 0 ... 1 in the map; a value outside of the map has another one, or NaN.
   [[nodiscard]] double place_of(const std::string& text, const std::string& where) const {
     const auto quantity = parse_quantity(text);
     if (!quantity || quantity->unit != unit_) {
@@ -81,7 +81,7 @@ class CellScale {
                                    unit_.empty() ? "" : fmt::format(" in \"{}\"", unit_)));
     }
     const double value = scaled(quantity->number);
-    // The outer halves of the first and the last cell go on as their neighbours do.
+    // Values in the outer halves of the first and the last cell are extrapolated from the next cell.
     std::size_t cell = 0;
     const bool rising = values_.back() > values_.front();
     while (cell + 2 < values_.size() && (rising ? value > values_[cell + 1] : value < values_[cell + 1])) ++cell;

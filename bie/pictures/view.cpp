@@ -14,7 +14,7 @@
 namespace vehd {
 namespace {
 
-/// Seen from far off in the direction `to_eye`: z points upwards, y where one looks along z.
+/// View along a direction: z points upwards, or y if the view is along z.
 /// @return rows: right, up, towards the eye; world coordinates become those of the picture
 Matrix3 view_along(const Vector3& to_eye) {
   const Vector3 eye = to_eye.normalized();
@@ -29,7 +29,7 @@ Matrix3 view_along(const Vector3& to_eye) {
 }
 
 Matrix3 view_of_axis(int axis) {
-  // Along y from the front, so that x is to the right.
+  // Along y from the front, so that x points to the right.
   return view_along(axis == 1 ? Vector3(-Vector3::UnitY()) : Vector3(Vector3::Unit(axis)));
 }
 
@@ -41,7 +41,7 @@ Matrix3 gradient_of(const FlowScene& flow) {
   return gradient;
 }
 
-/// How much of what a picture should show has each direction: a^T M a for a unit vector a.
+/// M such that a^T M a is the weight along the unit vector a of what the picture should show.
 Matrix3 weights_of(const Scene& scene, const Matrix3& gyration) {
   Matrix3 weights = Matrix3::Zero();
   const auto add_direction = [&weights](const Vector3& direction) {
@@ -55,7 +55,7 @@ Matrix3 weights_of(const Scene& scene, const Matrix3& gyration) {
     const double size = gradient.squaredNorm();
     if (size > 0.0) weights += (gradient * gradient.transpose() + gradient.transpose() * gradient) / size;
   }
-  // The one axis that differs most from the two others; its share decides only where nothing else does.
+  // The axis that differs most from the two others; its small weight decides only if nothing else does.
   const auto [moments, axes] = principal_axes(gyration);
   const bool prolate = moments[2] - moments[1] > moments[1] - moments[0];
   constexpr double share = 0.01;
@@ -111,7 +111,7 @@ Vector3 flow_velocity(const FlowScene& flow, const Vector3& x) {
 
 Matrix3 default_view(const Scene& scene, const Matrix3& gyration) {
   const Matrix3 weights = weights_of(scene, gyration);
-  // Rounding of a direction does not decide among the axes.
+  // Rounding errors must not decide among the axes.
   constexpr double rounding = 1e-6;
   int best = 1;
   for (const int axis : {2, 0}) {
@@ -121,7 +121,7 @@ Matrix3 default_view(const Scene& scene, const Matrix3& gyration) {
   constexpr double oblique = 0.02;
   if (weights(best, best) < oblique || axes.values[0] > 0.5 * weights(best, best)) return view_of_axis(best);
   Vector3 eye = axes.directions.col(0);
-  // From the front or from above.
+  // Seen from the front or from above.
   if (eye.y() > rounding || (std::abs(eye.y()) <= rounding && eye.z() < 0.0)) eye = -eye;
   return view_along(eye);
 }

@@ -17,11 +17,11 @@ Vector3 vector_of(const Triple& triple);
 /// @throws InputError for anything else
 Matrix3 parse_view(const std::string& text);
 
-/// v_∞ of a scene at a place, without its waveform.
+/// v_∞ of a scene at a point, without its waveform.
 Vector3 flow_velocity(const FlowScene& flow, const Vector3& place);
 
-/// Across the plane of flow and field: along the axis of which field, gravity and flow have the least, along y where
-/// several have none. Where none decides, the axis of a shape of revolution lies in the plane.
+/// View perpendicular to the plane of flow and field: along the axis with the least of these and gravity (y if several
+/// have none), or obliquely with less. If none decides, the axis of a body of revolution lies in the plane.
 /// @param gyration  of the first shape, any scale
 Matrix3 default_view(const Scene& scene, const Matrix3& gyration);
 

@@ -127,10 +127,10 @@ void AxisTranslation::along_axis(int degree, double* values, double* spare) cons
 namespace {
 
 /// Length of a translation, and the angles of the rotation that takes it to the axis.
-struct WayAngles {
+struct TranslationAngles {
   double distance, cosine_polar, sine_polar, cosine_azimuth, sine_azimuth;
 
-  explicit WayAngles(const Vector3& offset) : distance(offset.norm()) {
+  explicit TranslationAngles(const Vector3& offset) : distance(offset.norm()) {
     const double across = std::hypot(offset.x(), offset.y());
     cosine_polar = offset.z() / distance;
     sine_polar = across / distance;
@@ -183,7 +183,7 @@ void AxisTranslation::add_local(std::span<const DistantMoments> sources, Batch& 
 
   std::array<double, kTogetherTurned> inverse_distance;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const WayAngles way(sources[i].offset);
+    const TranslationAngles way(sources[i].offset);
     inverse_distance[i] = 1.0 / way.distance;
     const auto first = static_cast<Index>(i) * kColumns;
     const auto to = [&](Index row) { return few(batch.values.data() + row * kWidth + first); };

@@ -55,7 +55,7 @@ void FarExpansions::find_places(const std::vector<ExpandedMembrane>& membranes, 
     // Exact for the moments of a sphere.
     nodes.push_back(transforms.of(order, order + kHighestDegree / 2));
   }
-  std::vector<std::optional<Place>> places(membranes.size());
+  std::vector<std::optional<MembraneExpansion>> places(membranes.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t a = 0; a < membranes.size(); ++a) {
     if (partition_.is_local(a)) places[a] = place_of(membranes[a], centres[a], nodes[a]);
@@ -66,13 +66,14 @@ void FarExpansions::find_places(const std::vector<ExpandedMembrane>& membranes, 
   }
   partition_.gather(radii);
   for (std::size_t a = 0; a < membranes.size(); ++a) {
-    const Place of_another{centres[a] / scale_, radii[a], nodes[a], {}, {}, {}, MomentSums(Matrix()), {}, {}, {}};
+    const MembraneExpansion of_another{centres[a] / scale_,  radii[a], nodes[a], {}, {}, {},
+                                       MomentSums(Matrix()), {},       {},       {}};
     places_.push_back(places[a] ? *std::move(places[a]) : of_another);
   }
 }
 
-FarExpansions::Place FarExpansions::place_of(const ExpandedMembrane& membrane, const Vector3& centre,
-                                             const SphereTransform& nodes) const {
+FarExpansions::MembraneExpansion FarExpansions::place_of(const ExpandedMembrane& membrane, const Vector3& centre,
+                                                         const SphereTransform& nodes) const {
   const SmoothGrid grid = make_smooth_grid(make_layer_fields(membrane.position, {}), nodes);
   const auto about_centre = [&](const Matrix& points) -> Matrix {
     return (points.rowwise() - centre.transpose()) / scale_;
@@ -94,7 +95,7 @@ FarExpansions::Place FarExpansions::place_of(const ExpandedMembrane& membrane, c
 }
 
 /// Terms of degree l of either expansion fall like the l-th power of the radius over the distance to the other surface.
-int FarExpansions::degree_of(const Place& a, const Place& b) const {
+int FarExpansions::degree_of(const MembraneExpansion& a, const MembraneExpansion& b) const {
   const double distance = (a.centre - b.centre).norm();
   const double ratio = std::max(b.radius / (distance - a.radius), a.radius / (distance - b.radius));
   if (!(ratio > 0.0 && ratio < 0.5)) return kHighestDegree + 1;
@@ -115,7 +116,7 @@ Index FarExpansions::n_targets() const {
   return n;
 }
 
-Matrix FarExpansions::dipole_moments(const Place& place, const std::vector<Matrix>& components) const {
+Matrix FarExpansions::dipole_moments(const MembraneExpansion& place, const std::vector<Matrix>& components) const {
   Matrix sums = Matrix::Zero(n_solid(kHighestDegree), components.front().cols());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     sums += derivative_[axis].transpose() * place.sums.of(components[axis]);
@@ -123,7 +124,7 @@ Matrix FarExpansions::dipole_moments(const Place& place, const std::vector<Matri
   return moments(sums);
 }
 
-Matrix FarExpansions::moments_of(PairLayer layer, const Place& place, const Matrix& density) const {
+Matrix FarExpansions::moments_of(PairLayer layer, const MembraneExpansion& place, const Matrix& density) const {
   const Matrix charges = place.weight.asDiagonal() * place.nodes.synthesize(density);
   const Matrix& n = place.area_vectors;
   // The last column of four is that of B, see values_of.
@@ -176,7 +177,7 @@ std::vector<Matrix> FarExpansions::local(const std::vector<Matrix>& moments, boo
 ///   u_i = A_i − x_j ∂_i A_j + ∂_i B,
 /// x from the centre. f_i/r + r_i r·f/r³ has A = f/r, B = y·f/r; 3 r_i r_j r_k S_jk/r⁵ with S = ½(v nᵀ + n vᵀ) has
 /// A_j = S_jk ∂(1/r)/∂y_k, B = y_j A_j.
-Matrix FarExpansions::values_of(PairLayer layer, const Place& place, const Matrix& coefficients) const {
+Matrix FarExpansions::values_of(PairLayer layer, const MembraneExpansion& place, const Matrix& coefficients) const {
   if (is_stokes(layer)) {
     Matrix all(coefficients.rows(), 12);
     for (int i = 0; i < 3; ++i) {

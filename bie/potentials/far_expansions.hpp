@@ -42,7 +42,7 @@ class FarExpansions {
 
  private:
   /// Lengths are divided by scale_. Only the first three members are set for membranes of other ranks.
-  struct Place {
+  struct MembraneExpansion {
     Vector3 centre;
     double radius;
     SphereTransform nodes;
@@ -58,23 +58,23 @@ class FarExpansions {
 
   void find_places(const std::vector<ExpandedMembrane>& membranes, const std::vector<Vector3>& centres,
                    SharedTransforms& transforms);
-  [[nodiscard]] Place place_of(const ExpandedMembrane& membrane, const Vector3& centre,
-                               const SphereTransform& nodes) const;
-  [[nodiscard]] int degree_of(const Place& a, const Place& b) const;
-  [[nodiscard]] Matrix dipole_moments(const Place& place, const std::vector<Matrix>& components) const;
+  [[nodiscard]] MembraneExpansion place_of(const ExpandedMembrane& membrane, const Vector3& centre,
+                                           const SphereTransform& nodes) const;
+  [[nodiscard]] int degree_of(const MembraneExpansion& a, const MembraneExpansion& b) const;
+  [[nodiscard]] Matrix dipole_moments(const MembraneExpansion& place, const std::vector<Matrix>& components) const;
   /// @param moments     of each membrane, [n_solid x columns] or empty
   /// @param is_stokes   four columns, the last of which refers to the centre of its source
   [[nodiscard]] std::vector<Matrix> local(const std::vector<Matrix>& moments, bool is_stokes) const;
   /// Moments of one membrane.
-  [[nodiscard]] Matrix moments_of(PairLayer layer, const Place& place, const Matrix& density) const;
+  [[nodiscard]] Matrix moments_of(PairLayer layer, const MembraneExpansion& place, const Matrix& density) const;
   /// A layer without its prefactor at the targets of one membrane, from local coefficients.
-  [[nodiscard]] Matrix values_of(PairLayer layer, const Place& place, const Matrix& coefficients) const;
+  [[nodiscard]] Matrix values_of(PairLayer layer, const MembraneExpansion& place, const Matrix& coefficients) const;
 
   Partition partition_;
   double tolerance_, scale_ = 1.0;
   AxisTranslation translation_;
   std::vector<Eigen::SparseMatrix<double>> derivative_;
-  std::vector<Place> places_;
+  std::vector<MembraneExpansion> places_;
   std::vector<std::vector<FarSource>> far_from_;  ///< for each membrane those far from it, by degree
 };
 

@@ -64,11 +64,11 @@ FootPoint foot_point_at(const TangentFrame& direction, const PointDerivatives& y
 /// One search for a nearest point: query() is where derivatives are needed next, supply() takes them.
 class FootSearch {
  public:
-  FootSearch(const Vector3& start, const Vector3& target) : target_(target), asked_(point_of(start)) {}
+  FootSearch(const Vector3& start, const Vector3& target) : target_(target), query_(point_of(start)) {}
 
   [[nodiscard]] bool is_done() const { return done_; }
   /// Point at which derivatives are needed.
-  [[nodiscard]] const SpherePoint& query() const { return asked_.point; }
+  [[nodiscard]] const SpherePoint& query() const { return query_.point; }
 
   void supply(PointDerivatives y) {
     const SquaredDistance q = squared_distance(y, target_);
@@ -78,7 +78,7 @@ class FootSearch {
       step_ *= 0.5;
       ++halvings_;
     } else {
-      direction_ = asked_;
+      direction_ = query_;
       y_ = std::move(y);
       q_ = q;
       converged_ = last_;
@@ -88,7 +88,7 @@ class FootSearch {
       halvings_ = 0;
       ++steps_;
     }
-    asked_ = TangentFrame(point_of(direction_.moved(step_)));
+    query_ = TangentFrame(point_of(direction_.moved(step_)));
   }
 
   /// @throws ConvergenceError after too many steps
@@ -110,7 +110,7 @@ class FootSearch {
   static constexpr double kTolerance = 1e-13;
 
   Vector3 target_;
-  TangentFrame asked_, direction_ = asked_;
+  TangentFrame query_, direction_ = query_;
   PointDerivatives y_;
   SquaredDistance q_{};
   Eigen::Vector2d step_ = Eigen::Vector2d::Zero();
@@ -131,15 +131,15 @@ std::vector<FootPoint> find_foot_points(const Matrix& position, const Matrix& st
   for (Index i = 0; i < targets.rows(); ++i) {
     searches.emplace_back(Vector3(starts.row(i).transpose()), Vector3(targets.row(i).transpose()));
   }
-  std::vector<FootSearch*> going_on;
-  for (FootSearch& search : searches) going_on.push_back(&search);
+  std::vector<FootSearch*> active;
+  for (FootSearch& search : searches) active.push_back(&search);
   std::vector<SpherePoint> points;
-  while (!going_on.empty()) {
+  while (!active.empty()) {
     points.clear();
-    for (const FootSearch* search : going_on) points.push_back(search->query());
+    for (const FootSearch* search : active) points.push_back(search->query());
     std::vector<PointDerivatives> found = point_derivatives(position, points);
-    for (std::size_t i = 0; i < found.size(); ++i) going_on[i]->supply(std::move(found[i]));
-    std::erase_if(going_on, [](const FootSearch* search) { return search->is_done(); });
+    for (std::size_t i = 0; i < found.size(); ++i) active[i]->supply(std::move(found[i]));
+    std::erase_if(active, [](const FootSearch* search) { return search->is_done(); });
   }
   std::vector<FootPoint> feet;
   for (const FootSearch& search : searches) feet.push_back(search.result());

@@ -199,9 +199,9 @@ Arrangement arrangement_of(const Matrix& first, const Matrix& second) {
   const Index of_second = nodes_inside(a, b), of_first = nodes_inside(b, a);
   if (of_second == b.nodes.rows() && of_first == 0) return Arrangement::second_is_inside;
   if (of_first == a.nodes.rows() && of_second == 0) return Arrangement::first_is_inside;
-  if (of_first > 0 || of_second > 0) return Arrangement::they_meet;
+  if (of_first > 0 || of_second > 0) return Arrangement::intersecting;
   // Parts that are thinner than the node spacing may meet between the nodes.
-  return nearest_points(first, second).gap > 0.0 ? Arrangement::apart : Arrangement::they_meet;
+  return nearest_points(first, second).gap > 0.0 ? Arrangement::apart : Arrangement::intersecting;
 }
 
 }  // namespace vehd

@@ -32,7 +32,7 @@ struct ClosestPair {
 ClosestPair closest_pair(const std::vector<Matrix>& membranes);
 
 /// Position of two membranes relative to each other.
-enum class Arrangement { apart, they_meet, first_is_inside, second_is_inside };
+enum class Arrangement { apart, intersecting, first_is_inside, second_is_inside };
 
 /// Arrangement from the nodes of both membranes; membranes that touch to rounding count as meeting.
 /// @param first, second  coefficients of x, [n_coefficients x 3] each

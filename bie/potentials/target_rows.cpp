@@ -83,7 +83,7 @@ TargetRows::TargetRows(const TargetContext& context, const RowPlaces& places, in
       cosine_phases_(static_cast<std::size_t>((azimuthal_order_ + 1) * chunk)),
       sine_phases_(cosine_phases_.size()),
       rotation_entries_(static_cast<std::size_t>(chunk)),
-      nothing_(static_cast<std::size_t>(chunk), 0.0),
+      zeros_(static_cast<std::size_t>(chunk), 0.0),
       phases_back_(4 * cosine_phases_.size()) {
   Index widest = std::max(rows_.columns(false), rows_.columns(true));
   for (int kind = 0; kind < shape_kinds_; ++kind) {
@@ -259,8 +259,8 @@ void TargetRows::store_rows(std::span<const Target> targets, RowMatrix& rows) {
   const double* sines = rows_.row(true, 0, 0);
   const auto unphase = [&](const StoredEntry& entry, Index first, LanesOfRows& values) {
     const double* factors = phases_back_.data() + 2 * entry.phases * chunk_ + first;
-    const double* cosine = entry.cosine < 0 ? nothing_.data() : cosines + entry.cosine + first;
-    const double* sine = entry.sine < 0 ? nothing_.data() : sines + entry.sine + first;
+    const double* cosine = entry.cosine < 0 ? zeros_.data() : cosines + entry.cosine + first;
+    const double* sine = entry.sine < 0 ? zeros_.data() : sines + entry.sine + first;
     values = Lanes<kLanes>::load(cosine) * Lanes<kLanes>::load(factors) +
              Lanes<kLanes>::load(sine) * Lanes<kLanes>::load(factors + chunk_);
   };

@@ -195,7 +195,7 @@ class TargetRows {
   Matrix cosines_, sines_;                           ///< of mφ, [longitude x m]
   std::vector<double> cosine_phases_, sine_phases_;  ///< of mφ, [m][target]
   std::vector<double> rotation_entries_;
-  std::vector<double> nothing_;  ///< zeros
+  std::vector<double> zeros_;  ///< zeros
   std::vector<StoredEntries> stored_;
   std::vector<double> phases_back_;  ///< factors of cosine and of sine, [m, cosines and sines][2][target]
 };

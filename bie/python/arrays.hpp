@@ -13,17 +13,17 @@ namespace vehd::python {
 
 namespace py = pybind11;
 
-/// Read-only numpy array on the numbers of a vector or a matrix, without a copy.
-/// @param owner  Python object that keeps them alive as long as the array is
-/// @return  [n] of a vector; [n, columns] of a matrix, whose columns are contiguous; None where it is empty
+/// Read-only numpy array that shares the numbers of a vector or a matrix without a copy.
+/// @param owner  Python object that keeps the numbers alive as long as the array exists
+/// @return  [n] for a vector; [n, columns] for a matrix, whose columns are contiguous; None if it is empty
 py::object view(const Vector& values, py::handle owner);
 /// The array of a matrix, [n, columns]; owner as above.
 py::object view(const Matrix& values, py::handle owner);
 
-/// A result with one axis where the argument that it was made from has one, with two otherwise.
+/// A result with one axis if the argument from which it was computed has one, otherwise with two.
 py::object shaped_like(const py::array& argument, Matrix result);
 
-/// Point sources as Python has them: place, strength, whether it is inside.
+/// Point sources in Python: position, strength, whether inside.
 using GivenSources = std::vector<std::tuple<Vector3, double, bool>>;
 
 inline std::vector<PointSource> sources_of(const GivenSources& given) {

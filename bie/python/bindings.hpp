@@ -2,10 +2,10 @@
 
 #include <pybind11/pybind11.h>
 
-/// One function for each part of the module `vehd._core`: it adds types and functions of the part.
+/// One function for each part of the module `vehd._core`, which adds types and functions of this part.
 namespace vehd::python {
 
-/// Exceptions; before all else.
+/// Exceptions; must be called first.
 void bind_errors(pybind11::module_& module);
 /// Scene.
 void bind_scene(pybind11::module_& module);

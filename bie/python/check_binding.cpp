@@ -37,14 +37,14 @@ std::tuple<int, std::string> solve_sources(const std::filesystem::path& program_
   return {static_cast<int>(result.code), result.json.dump()};
 }
 
-/// The time of a state that was read from a file, as it may be given.
+/// The time of a state read from a file, in a form in which times are given.
 std::string time_of(const FrozenState& frozen, const std::filesystem::path& file) {
   if (file.extension() == ".toml") return "0";
   return shown_time(frozen.state.time, GivenTimes(RunReader(file), file).shown());
 }
 
-/// Exit code and result, as text, of the finite-element program; a note where the time is not the one requested; and
-/// the time.
+/// Exit code and result, as text, of the finite-element program; a note if the time is not the requested one; and the
+/// time.
 std::tuple<int, std::string, std::string, std::string> check(const std::filesystem::path& program_folder,
                                                              const std::filesystem::path& file,
                                                              const std::vector<std::string>& settings,

@@ -15,7 +15,7 @@ namespace py = pybind11;
 namespace {
 
 /// Content of fit.json.
-/// @param text  of the fit; absent: that of the file
+/// @param text  content of the fit file; absent: read from the file
 std::string fit(const std::filesystem::path& file, const std::optional<std::string>& text,
                 const std::filesystem::path& directory, int jobs, bool plot) {
   const ThreadCount one(1);

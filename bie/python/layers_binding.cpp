@@ -13,7 +13,7 @@
 namespace vehd::python {
 namespace {
 
-/// An optional density as coefficients.
+/// Coefficients of an optional density; empty if it is absent.
 Matrix density_of(const SurfaceObject& surface, const std::optional<Matrix>& given, const char* name, Index columns) {
   if (!given) return {};
   require_size(name, given->rows(), surface.coefficients().rows());

@@ -17,13 +17,13 @@
 namespace vehd::python {
 namespace {
 
-/// What is wrong with a scene, in Python an exception of its own.
+/// An error in a scene, with a separate exception type in Python.
 class SceneProblem : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// `read`, with its errors as those of a scene.
+/// Calls `read` and rethrows its errors as those of a scene.
 template <typename Read>
 GivenScene read_given(SceneSource source, const Read& read) {
   try {
@@ -41,7 +41,7 @@ GivenScene given(SceneSource source) {
 toml::table table_of(const py::dict& dict);
 toml::array array_of(py::handle list, const std::string& name);
 
-/// A value in C++. @throws SceneProblem if it does not fit
+/// A Python value as a C++ type. @throws SceneProblem if it does not fit
 template <typename T>
 T fitting(py::handle value, const std::string& name, const char* accepted) {
   try {
@@ -52,7 +52,7 @@ T fitting(py::handle value, const std::string& name, const char* accepted) {
   }
 }
 
-/// While alive, one level deeper in what Python has nested.
+/// Counts one more level of nesting in Python during its lifetime.
 class Level {
  public:
   Level() {
@@ -63,11 +63,11 @@ class Level {
   Level& operator=(const Level&) = delete;
 };
 
-/// Hands the value to `take` as the type that TOML has for it.
+/// Calls `take` with the value in its TOML type.
 template <typename Take>
 void with_value(py::handle value, const std::string& name, const Take& take) {
   if (py::hasattr(value, "dtype") && value.attr("ndim").cast<int>() == 0) {
-    // A number of numpy as Python has it; of extended precision it stays what it is.
+    // A numpy number becomes the Python number; one of extended precision stays unchanged.
     const py::object plain = value.attr("item")();
     if (!plain.get_type().is(value.get_type())) return with_value(plain, name, take);
   }
@@ -77,7 +77,7 @@ void with_value(py::handle value, const std::string& name, const Take& take) {
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value) || py::isinstance<py::array>(value)) {
     return take(array_of(value, name));
   }
-  // Whatever else is a number.
+  // Any other number.
   if (PyIndex_Check(value.ptr()) != 0)
     return take(
         fitting<std::int64_t>(py::int_(py::reinterpret_borrow<py::object>(value)), name, "whole numbers of 64 bits"));

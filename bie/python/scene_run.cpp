@@ -9,7 +9,7 @@
 namespace vehd::python {
 namespace {
 
-/// While alive, nobody else may step or look.
+/// During its lifetime no other thread can step or read.
 class Busy {
  public:
   explicit Busy(std::atomic<bool>& flag) : flag_(flag) {
@@ -25,15 +25,19 @@ class Busy {
 
 }  // namespace
 
-SceneRun::SceneRun(const GivenScene& given, const std::optional<std::filesystem::path>& directory, bool resume)
+SceneRun::SceneRun(const GivenScene& given, const std::optional<std::filesystem::path>& directory, bool resume,
+                   const std::filesystem::path& from)
     : parts_(std::make_shared<Parts>(given.scene)), directory_(directory) {
   if (!directory_ && parts_->scene.numerics.error_bars) {
     throw InputError("\"error_bars\" in [numerics] is true, but there is no directory for history_error.csv");
   }
+  if (!directory_ && !from.empty()) {
+    throw InputError("from_run continues a run in another directory, but there is no directory");
+  }
   if (directory_) {
-    parts_->session.emplace(parts_->scene, given.source, *directory_, resume);
+    parts_->session.emplace(parts_->scene, given.source, *directory_, resume, Ranks(), false, from);
     if (parts_->session->is_complete()) {
-      // Nothing is left to do, and no file to be written.
+      // No step is left, and no file has to be written.
       const RunTask task = parts_->session->task({});
       parts_->in_memory.emplace(parts_->scene, *task.checkpoint, OutputUnits(parts_->scene));
       parts_->in_memory->start();
@@ -58,7 +62,7 @@ SceneRun::~SceneRun() {
   try {
     if (has_own_files()) close();
   } catch (const std::exception&) {
-    // The checkpoint of the last step is there, and nobody is left to tell.
+    // The checkpoint of the last step exists, and a destructor cannot report the error.
   }
 }
 
@@ -76,8 +80,8 @@ void SceneRun::start() {
     append_rows();
   }
   simulation.keep_former([this](State&& state, Evaluation&& evaluation) {
-    if (!looks_) return;
-    looks_ = false;
+    if (!view_is_live_) return;
+    view_is_live_ = false;
     if (moment_.use_count() > 1) moment_->keep(std::move(state), std::move(evaluation.fields));
     moment_.reset();
   });
@@ -88,7 +92,7 @@ bool SceneRun::step() {
   if (at_end()) return false;
   require_own_files();
   if (closed_) throw std::runtime_error("the simulation is closed");
-  moment_ = looks_ ? std::move(moment_) : nullptr;
+  moment_ = view_is_live_ ? std::move(moment_) : nullptr;
   if (!parts_->recorded) {
     parts_->in_memory->step();
     append_rows();
@@ -159,15 +163,15 @@ RunStatus SceneRun::status() const {
   return simulation().status();
 }
 
-std::shared_ptr<Moment> SceneRun::moment() {
+std::shared_ptr<StateView> SceneRun::moment() {
   require_idle();
   if (moment_) return moment_;
   const State& state = simulation().evolution().state();
   const Fields& fields = simulation().evolution().evaluation().fields;
   const Frame& frame = simulation().problem().frame;
-  looks_ = frame.is_laboratory();
-  moment_ = looks_ ? std::make_shared<Moment>(state, fields, parts_)
-                   : std::make_shared<Moment>(in_laboratory(frame, state), in_laboratory(frame, fields));
+  view_is_live_ = frame.is_laboratory();
+  moment_ = view_is_live_ ? std::make_shared<StateView>(state, fields, parts_)
+                          : std::make_shared<StateView>(in_laboratory(frame, state), in_laboratory(frame, fields));
   return moment_;
 }
 

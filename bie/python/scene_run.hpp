@@ -16,20 +16,20 @@
 
 namespace vehd::python {
 
-/// State and fields of a simulation at one time. It looks at those of the simulation as long as they are there, and
-/// takes them over, where they lie, when the simulation goes on: arrays on them stay what they are.
-class Moment {
+/// State and fields of a simulation at one time. It refers to those of the simulation as long as they exist, and takes
+/// over their storage when the simulation goes on, so that arrays that share it stay valid and unchanged.
+class StateView {
  public:
-  /// Looks at what belongs to someone else, who calls `keep` before giving it up and stays as long as this looks.
-  Moment(const State& state, const Fields& fields, std::shared_ptr<const void> owner)
+  /// Refers to data of another object, kept alive by `owner`, which must call `keep` before it changes them.
+  StateView(const State& state, const Fields& fields, std::shared_ptr<const void> owner)
       : state_(&state), fields_(&fields), owner_(std::move(owner)), time_(state.time) {}
   /// Owns both.
-  Moment(State&& state, Fields&& fields) : time_(state.time) { keep(std::move(state), std::move(fields)); }
-  Moment(const Moment&) = delete;
-  Moment& operator=(const Moment&) = delete;
+  StateView(State&& state, Fields&& fields) : time_(state.time) { keep(std::move(state), std::move(fields)); }
+  StateView(const StateView&) = delete;
+  StateView& operator=(const StateView&) = delete;
 
   [[nodiscard]] double time() const { return time_; }
-  /// Takes over what it looks at.
+  /// Takes over the data to which it refers.
   void keep(State&& state, Fields&& fields) {
     const std::lock_guard lock(mutex_);
     for (VesicleState& vesicle : state.vesicles) vesicle.recycled = {};
@@ -39,7 +39,7 @@ class Moment {
     fields_ = &own_fields_;
     owner_.reset();
   }
-  /// @returns what `look(state, fields)` does; nobody takes anything over meanwhile
+  /// @returns look(state, fields); the data are not taken over meanwhile
   template <typename Look>
   auto with(const Look& look) const {
     const std::lock_guard lock(mutex_);
@@ -49,14 +49,14 @@ class Moment {
  private:
   const State* state_ = nullptr;
   const Fields* fields_ = nullptr;
-  std::shared_ptr<const void> owner_;  ///< of what it looks at
+  std::shared_ptr<const void> owner_;  ///< keeps the data alive to which it refers
   double time_;
   State own_state_;
   Fields own_fields_;
-  mutable std::mutex mutex_;  // a step runs beside other threads of Python
+  mutable std::mutex mutex_;  // a step runs concurrently with other threads of Python
 };
 
-/// A scene with where it comes from.
+/// A scene and its source.
 struct GivenScene {
   SceneSource source;  ///< of text: a file that need not exist
   Scene scene;
@@ -66,21 +66,22 @@ struct GivenScene {
 class SceneRun {
  public:
   /// @param directory  of the run; absent: no files
-  /// @param resume     whether a former run there may go on
+  /// @param resume     whether an earlier run there may be continued
   /// @throws InputError, OutputError, ConvergenceError as `vehd run`
-  SceneRun(const GivenScene& given, const std::optional<std::filesystem::path>& directory, bool resume);
-  /// Leaves the files of a run that did not reach its end as Ctrl-C does.
+  SceneRun(const GivenScene& given, const std::optional<std::filesystem::path>& directory, bool resume,
+           const std::filesystem::path& from = {});
+  /// Leaves the files of a run that did not reach its end in the state after Ctrl-C.
   ~SceneRun();
   SceneRun(const SceneRun&) = delete;
   SceneRun& operator=(const SceneRun&) = delete;
 
-  /// One accepted step. @returns false where the end is reached already
-  /// @throws ConvergenceError where none is acceptable: the state is the last good one
+  /// Takes one accepted step. @returns false if the end has been reached before
+  /// @throws ConvergenceError if no step is acceptable: the state is the last good one
   bool step();
-  /// Adds a snapshot of the present state to the files unless it has one, and brings them up to date.
+  /// Adds a snapshot of the present state to the files unless they have it, and updates the files.
   /// @throws InputError if there are no files, std::runtime_error if the run is closed
   void snapshot();
-  /// Adds a snapshot as snapshot() does, writes the summary and leaves the directory; no step can follow.
+  /// Adds a snapshot as snapshot() does, writes the summary and releases the directory; no step can follow.
   void close();
 
   [[nodiscard]] bool completed() const;
@@ -88,11 +89,11 @@ class SceneRun {
   [[nodiscard]] RunStatus status() const;
   [[nodiscard]] const Simulation& simulation() const;
   [[nodiscard]] const std::optional<std::filesystem::path>& directory() const { return directory_; }
-  /// In the axes of the laboratory.
-  [[nodiscard]] std::shared_ptr<Moment> moment();
-  /// Rows of all vesicles, as in history.csv.
+  /// State and fields in the axes of the laboratory.
+  [[nodiscard]] std::shared_ptr<StateView> moment();
+  /// Rows of all vesicles together, as in history.csv.
   [[nodiscard]] HistoryTable history() const;
-  /// Rows of each, as in vesicles.csv; those of history.csv where there is one vesicle.
+  /// Rows of each vesicle, as in vesicles.csv; those of history.csv if there is one vesicle.
   [[nodiscard]] HistoryTable vesicle_history() const;
 
  private:
@@ -101,7 +102,7 @@ class SceneRun {
   void append_rows();
   void end(const RunOutcome& outcome);
   void require_idle() const;
-  /// A forked process has the simulation as well, but the files are those of the process that began it.
+  /// A forked process has a copy of the simulation, but the files belong to the process that created it.
   [[nodiscard]] bool has_own_files() const { return getpid() == process_; }
   void require_own_files() const;
 
@@ -118,8 +119,8 @@ class SceneRun {
   std::optional<std::filesystem::path> directory_;
   std::optional<LabFrameOutput> lab_frame_output_;
   std::optional<HistoryTable> history_, vesicles_;
-  std::shared_ptr<Moment> moment_;
-  bool looks_ = false;  ///< the moment is that of the state
+  std::shared_ptr<StateView> moment_;
+  bool view_is_live_ = false;  ///< the moment refers to the state of the simulation
   bool closed_ = false;
   std::atomic<bool> busy_ = false;
   pid_t process_ = getpid();

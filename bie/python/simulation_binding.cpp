@@ -14,15 +14,15 @@ namespace {
 
 /// One vesicle of a moment.
 struct Vesicle {
-  std::shared_ptr<Moment> moment;
+  std::shared_ptr<StateView> moment;
   std::size_t number;
 };
 
-std::size_t count_of(const Moment& moment) {
+std::size_t count_of(const StateView& moment) {
   return moment.with([](const State& state, const Fields&) { return state.vesicles.size(); });
 }
 
-/// A property: an array on a field of the state.
+/// A property: an array that shares a field of the state.
 template <auto member>
 py::object of_state(const Vesicle& vesicle) {
   return vesicle.moment->with([&](const State& state, const Fields&) {
@@ -30,7 +30,7 @@ py::object of_state(const Vesicle& vesicle) {
   });
 }
 
-/// A property: an array on what was solved for.
+/// A property: an array that shares a solved field.
 template <auto member>
 py::object of_fields(const Vesicle& vesicle) {
   return vesicle.moment->with([&](const State&, const Fields& fields) {
@@ -47,7 +47,7 @@ py::dict columns_of(const HistoryTable& table) {
   return columns;
 }
 
-/// A table of a run; what cannot be known to be intact is a warning.
+/// A table of a run, with a warning if it cannot be verified to be intact.
 HistoryTable checked_table(const std::filesystem::path& path) {
   ReadingNotes notes;
   HistoryTable table = read_table(path, notes);
@@ -63,7 +63,7 @@ py::dict units_of(const HistoryTable& table) {
   return units;
 }
 
-/// Where the solver itself has the fields of a vesicle, by the names that arrays on them have: for tests.
+/// Addresses of the fields of a vesicle in the solver, by the names of the arrays that share them: for tests.
 py::dict addresses_of(const SceneRun& run, std::size_t number) {
   const SurfaceFields& state = run.simulation().evolution().state().vesicles.at(number);
   const VesicleFields& fields = run.simulation().evolution().evaluation().fields.vesicles.at(number);
@@ -83,7 +83,7 @@ py::dict addresses_of(const SceneRun& run, std::size_t number) {
   return addresses;
 }
 
-/// A step without the lock of Python; a signal that has come meanwhile raises once the step is whole.
+/// Takes a step without the lock of Python; a signal received meanwhile raises once the step is complete.
 bool step(SceneRun& run) {
   bool stepped = false;
   {
@@ -106,10 +106,10 @@ void bind_moment(py::module_& module) {
       .def_property_readonly("force_tension", of_fields<&VesicleFields::force_tension>)
       .def_property_readonly("force_electric", of_fields<&VesicleFields::force_electric>)
       .def_property_readonly("force_contact", of_fields<&VesicleFields::force_contact>);
-  py::class_<Moment, std::shared_ptr<Moment>>(module, "State")
-      .def_property_readonly("time", &Moment::time)
-      .def("__len__", [](const std::shared_ptr<Moment>& moment) { return count_of(*moment); })
-      .def("__getitem__", [](const std::shared_ptr<Moment>& moment, py::ssize_t number) {
+  py::class_<StateView, std::shared_ptr<StateView>>(module, "State")
+      .def_property_readonly("time", &StateView::time)
+      .def("__len__", [](const std::shared_ptr<StateView>& moment) { return count_of(*moment); })
+      .def("__getitem__", [](const std::shared_ptr<StateView>& moment, py::ssize_t number) {
         const auto count = static_cast<py::ssize_t>(count_of(*moment));
         if (number < 0) number += count;
         if (number < 0 || number >= count) throw py::index_error("no such vesicle");
@@ -134,11 +134,13 @@ void bind_simulation(py::module_& module) {
       .def("columns", &columns_of)
       .def("units", &units_of);
   py::class_<SceneRun>(module, "SceneRun")
-      .def(py::init([](const GivenScene& scene, const std::optional<std::filesystem::path>& directory, bool resume) {
+      .def(py::init([](const GivenScene& scene, const std::optional<std::filesystem::path>& directory, bool resume,
+                       const std::filesystem::path& from) {
              const py::gil_scoped_release others_run;
-             return std::make_unique<SceneRun>(scene, directory, resume);
+             return std::make_unique<SceneRun>(scene, directory, resume, from);
            }),
-           py::arg("scene"), py::arg("directory") = std::nullopt, py::arg("resume") = false)
+           py::arg("scene"), py::arg("directory") = std::nullopt, py::arg("resume") = false,
+           py::arg("from_run") = std::filesystem::path())
       .def("step", &step)
       .def("snapshot", &SceneRun::snapshot, py::call_guard<py::gil_scoped_release>())
       .def("close", &SceneRun::close, py::call_guard<py::gil_scoped_release>())

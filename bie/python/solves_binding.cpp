@@ -19,14 +19,14 @@ namespace {
 
 using Shared = std::shared_ptr<SurfaceObject>;
 
-/// An electric problem that is solved.
+/// A solved electric problem.
 struct ElectricSolution {
   ElectricTraces traces;
   Matrix force;
   SolveReport report;
 };
 
-/// A tension problem that is solved.
+/// A solved tension problem.
 struct TensionSolution {
   Vector tension;
   Matrix velocity;

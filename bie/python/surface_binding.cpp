@@ -17,13 +17,13 @@ namespace {
 
 using Shared = std::shared_ptr<SurfaceObject>;
 
-/// A property: an array on a field of the geometry.
+/// A property: an array that shares a field of the geometry.
 template <auto member>
 py::object of_geometry(const Shared& surface) {
   return view(surface->geometry().*member, py::cast(surface));
 }
 
-/// A property: an array on a field of the grid.
+/// A property: an array that shares a field of the grid.
 template <auto member>
 py::object of_grid(const Shared& surface) {
   return view(surface->transform().grid().*member, py::cast(surface));
@@ -69,7 +69,7 @@ py::object laplacian(const Shared& surface, const py::array_t<double>& fields) {
   return shaped_like(fields, surface_laplacian(surface->geometry(), surface->transform().synthesize_hessian(given)));
 }
 
-/// Without operators: forces of the shape need none.
+/// The membrane without operators, which forces of the shape do not need.
 const Membrane& bare(const Shared& surface) { return surface->with({}); }
 
 }  // namespace

@@ -30,7 +30,7 @@ SurfaceObject::SurfaceObject(Matrix position, const ResolutionLevel& level)
     : position_(std::move(position)),
       space_(settings_of(position_, level), {}),
       membrane_(membrane_at(space_, position_, {}, 1.0, instruments_)) {
-  // Squares of metrics overflow beyond; scenes have the same range.
+  // Squares of metrics overflow outside this range, which scenes also have.
   constexpr double kSmallest = 1e-30, kLargest = 1e30;
   if (!(membrane_.radius >= kSmallest && membrane_.radius <= kLargest)) {
     throw InputError(fmt::format("the surface has the radius √(area/4π) = {:.6g}; accepted: {:g} ... {:g}",

@@ -10,29 +10,29 @@
 
 namespace vehd::python {
 
-/// A frozen surface of one degree with the operators that have been requested. Every one is assembled once.
+/// A frozen surface of one degree with the operators requested so far. Each operator is assembled once.
 class SurfaceObject {
  public:
-  /// How fine it is.
+  /// Resolution of the grid and of the quadrature.
   struct ResolutionLevel {
-    int upsampling = 2;                     ///< its grid is that of degree upsampling * p
+    int upsampling = 2;                     ///< the grid is that of degree upsampling * p
     double quadrature_oversampling = 1.15;  ///< nodes of the singular quadrature in θ per degree
   };
 
   /// @param position  coefficients of x, [n_coefficients x 3]
-  /// @throws ShapeError if that is no field of a degree from lowest_order to highest_order
+  /// @throws ShapeError if it is not a field of a degree from lowest_order to highest_order
   /// @throws InputError if x_θ × x_φ does not point outwards
   SurfaceObject(Matrix position, const ResolutionLevel& level);
 
   [[nodiscard]] int order() const { return space_.order(); }
   /// Coefficients of x.
   [[nodiscard]] const Matrix& coefficients() const { return position_; }
-  /// Between the degree and the grid of the surface.
+  /// Transform between the degree and the grid of the surface.
   [[nodiscard]] const SphereTransform& transform() const { return membrane_.fine; }
   [[nodiscard]] const Surface& geometry() const { return membrane_.surface; }
-  /// These operators at least, plain or weighted as the selection says.
+  /// At least these operators, plain or weighted as the selection says.
   [[nodiscard]] const LayerOperators& operators(const LayerSelection& selection);
-  /// The membrane with these weighted operators at least.
+  /// The membrane with at least these weighted operators.
   [[nodiscard]] const Membrane& with(const LayerSelection& selection);
 
  private:
@@ -61,13 +61,13 @@ class LayerMatrix {
   /// @param density  [size] or [size x n]
   /// @throws ShapeError
   [[nodiscard]] Matrix apply(const Matrix& density) const;
-  /// What `apply` does, as a matrix, [size x size].
+  /// Matrix of `apply`, [size x size].
   [[nodiscard]] Matrix matrix() const;
 
  private:
   std::shared_ptr<SurfaceObject> surface_;
   Index n_;                       ///< coefficients of a scalar field
-  const ScalarOperator* scalar_;  ///< or null
+  const ScalarOperator* scalar_;  ///< null for Stokes layers
   const StokesOperator* stokes_;
 };
 

@@ -253,7 +253,7 @@ class SoundCheck {
     require(vesicle.material.bending_modulus.size() == vesicle.material.spontaneous_curvature.size(), "/state");
     for (const auto& known : {vesicle.recycled.tension, vesicle.recycled.flow}) {
       if (!known) continue;
-      const char* name = "/state, what its solves know,";
+      const char* name = "/state, a recycled subspace,";
       const Matrix& arguments = known->subspace().arguments;
       const Matrix& responses = known->subspace().responses;
       require(arguments.rows() <= 2 * n_coefficients(highest_order) && arguments.cols() <= thresholds::most_recycled,

@@ -46,13 +46,13 @@ ErrorBars::ErrorBars(const Scene& scene, const std::optional<CompanionState>& fr
       companion_(scene_, start_of(from), OutputUnits(scene_), std::move(ranks)),
       order_of_results_(scene.numerics.order),
       lab_frame_output_(companion_.problem().frame, settings_of(scene)),
-      past_(from.value_or(CompanionState{.start_order = scene_.numerics.order})) {
+      progress_(from.value_or(CompanionState{.start_order = scene_.numerics.order})) {
   // Otherwise a limit set by the period of the forcing would give both runs equal steps and equal errors.
-  companion_.allow_steps(companion_steps);
+  companion_.scale_largest_step(companion_steps);
   try {
-    if (past_.lost == 0) companion_.start();
+    if (progress_.lost == 0) companion_.start();
   } catch (const ConvergenceError&) {
-    past_.lost = 1;
+    progress_.lost = 1;
   }
 }
 
@@ -64,37 +64,37 @@ Vector ErrorBars::values_of(const RecordedSide& side) const {
 
 void ErrorBars::add(const std::vector<RecordedSide>& sides) {
   for (const RecordedSide& side : sides) {
-    past_.waiting.conservativeResize(past_.waiting.rows() + 1, std::ssize(columns_));
-    past_.waiting.bottomRows<1>() = values_of(side).transpose();
+    progress_.waiting.conservativeResize(progress_.waiting.rows() + 1, std::ssize(columns_));
+    progress_.waiting.bottomRows<1>() = values_of(side).transpose();
   }
 }
 
 std::vector<Vector> ErrorBars::follow(bool to_end) {
   std::vector<Vector> known;
   try {
-    if (past_.lost == 0) compare(known);
-    while (past_.lost == 0 && step(to_end)) compare(known);
+    if (progress_.lost == 0) compare(known);
+    while (progress_.lost == 0 && step(to_end)) compare(known);
   } catch (const ConvergenceError&) {
-    past_.lost = 1;
+    progress_.lost = 1;
   }
-  if (past_.lost == 0 || past_.waiting.size() == 0) return known;
-  past_.waiting.rightCols(past_.waiting.cols() - 1).setConstant(std::numeric_limits<double>::quiet_NaN());
-  for (const auto& row : past_.waiting.rowwise()) known.emplace_back(row);
-  past_.waiting.resize(0, 0);
+  if (progress_.lost == 0 || progress_.waiting.size() == 0) return known;
+  progress_.waiting.rightCols(progress_.waiting.cols() - 1).setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (const auto& row : progress_.waiting.rowwise()) known.emplace_back(row);
+  progress_.waiting.resize(0, 0);
   return known;
 }
 
 /// Advances the companion by a step, to or past a row. @returns false if the run has not advanced far enough
 bool ErrorBars::step(bool to_end) {
-  if (past_.waiting.size() == 0) return false;
+  if (progress_.waiting.size() == 0) return false;
   EventTimes events{{}, scene_.numerics.end_time};
-  const double last = past_.waiting(past_.waiting.rows() - 1, 0);
+  const double last = progress_.waiting(progress_.waiting.rows() - 1, 0);
   const bool adapts = scene_.numerics.tolerance.has_value();
   const double reach = adapts ? companion_.evolution().reach(events) : last;
-  const bool has_steps = (past_.waiting.col(1).array() > 0.0).count() >= companion_steps;
+  const bool has_steps = (progress_.waiting.col(1).array() > 0.0).count() >= companion_steps;
   const bool is_far_enough = to_end || (adapts ? !is_before(last, reach) : has_steps);
   if (!is_far_enough || !is_before(companion_.evolution().state().time, last)) return false;
-  for (const double time : past_.waiting.col(0)) {
+  for (const double time : progress_.waiting.col(0)) {
     if (time <= reach) events.snapshots.times = {time};
   }
   companion_.step(events);
@@ -104,7 +104,7 @@ bool ErrorBars::step(bool to_end) {
 /// Compares rows that the companion has reached, and appends the errors of these and of the rows before them.
 void ErrorBars::compare(std::vector<Vector>& known) {
   for (const RecordedSide& side : companion_.sides()) {
-    Matrix& waiting = past_.waiting;
+    Matrix& waiting = progress_.waiting;
     Index here = 0;
     while (here < waiting.rows() && is_before(waiting(here, 0), side.row.time)) ++here;
     if (here == waiting.rows() || is_before(side.row.time, waiting(here, 0))) continue;
@@ -118,14 +118,14 @@ void ErrorBars::compare(std::vector<Vector>& known) {
     }
     for (Index row = 0; row <= here; ++row) known.push_back(bars_of(waiting.row(row), differences));
     waiting = waiting.bottomRows(waiting.rows() - here - 1).eval();
-    past_.former = differences;
+    progress_.former = differences;
   }
 }
 
 /// A row of history_error.csv. @param differences  at the first comparison at or after this row
 Vector ErrorBars::bars_of(const Vector& row, Vector differences) const {
   // Not across a jump: its two sides have different errors.
-  if (past_.former.size() > 0 && past_.former[0] < row[0]) differences = differences.cwiseMax(past_.former);
+  if (progress_.former.size() > 0 && progress_.former[0] < row[0]) differences = differences.cwiseMax(progress_.former);
   const auto truncation = std::ranges::find(columns_, "truncation", &HistoryColumn::name) - columns_.begin();
   // With fixed steps both runs have the same degree, and truncation is left out.
   if (scene_.numerics.tolerance) differences += row[truncation] * row.cwiseAbs();
@@ -138,7 +138,7 @@ Vector ErrorBars::bars_of(const Vector& row, Vector differences) const {
 }
 
 CompanionState ErrorBars::state() const {
-  CompanionState state = past_;
+  CompanionState state = progress_;
   state.state = companion_.evolution().state();
   return state;
 }

@@ -46,7 +46,7 @@ class ErrorBars {
   Simulation companion_;
   int order_of_results_;  ///< degree of the results of the run
   LabFrameOutput lab_frame_output_;
-  CompanionState past_;  ///< all members but the state of the companion
+  CompanionState progress_;  ///< all members but the state of the companion
 };
 
 }  // namespace vehd

@@ -163,10 +163,10 @@ Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& 
     checkpoint.state = adapted(std::move(checkpoint.state), before, scene);
     return checkpoint;
   }
-  Checkpoint anew;
-  anew.changes = std::move(checkpoint.changes);
-  anew.totals = std::move(checkpoint.totals);
-  return anew;
+  Checkpoint restarted;
+  restarted.changes = std::move(checkpoint.changes);
+  restarted.totals = std::move(checkpoint.totals);
+  return restarted;
 }
 
 int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths) {
@@ -174,7 +174,7 @@ int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPa
   return std::max(scene.numerics.order, RunReader(paths.snapshots()).order());
 }
 
-std::string what_may_help(const NumericsScene& numerics) {
+std::string advice_after_failure(const NumericsScene& numerics) {
   const std::string degree = fmt::format("degree (now {})", numerics.order);
   if (numerics.tolerance) {
     return fmt::format("change tolerance (now {:g}) or {} in [numerics]", *numerics.tolerance, degree);

@@ -40,6 +40,6 @@ Checkpoint continued(Checkpoint checkpoint, const Scene& scene, const RunPaths& 
 int order_of_files(const Scene& scene, const Checkpoint& checkpoint, const RunPaths& paths);
 
 /// "change dt (now 0.05), degree (now 16) ... in [numerics]": advice if no step is acceptable.
-std::string what_may_help(const NumericsScene& numerics);
+std::string advice_after_failure(const NumericsScene& numerics);
 
 }  // namespace vehd

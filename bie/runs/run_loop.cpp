@@ -69,7 +69,7 @@ RecordedRun::RecordedRun(const RunTask& task)
       error_bars_(error_bars_of(task)),
       ranks_(task.ranks),
       is_recorded_(start_of(task).n_rows > 0),
-      tell_(task.tell),
+      on_status_(task.on_status),
       after_step_(task.after_step) {
   // Other ranks may still be reading files that the first rank is about to change.
   ranks_.meet();
@@ -101,7 +101,7 @@ void RecordedRun::record(std::vector<Vector> errors) {
     if (recorder_) recorder_->record(simulation.evolution().state(), sides, totals);
   });
   is_recorded_ = true;
-  if (tell_) tell_(simulation.status());
+  if (on_status_) on_status_(simulation.status());
 }
 
 void RecordedRun::start() {

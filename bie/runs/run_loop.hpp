@@ -33,7 +33,7 @@ struct RunTask {
   const Scene& scene;
   const RunPaths& paths;
   const std::optional<Checkpoint>& checkpoint;  ///< absent: a new run; otherwise see `continued`
-  TellStatus tell{};                            ///< called when the start or a step is in the files
+  OnStatus on_status{};                         ///< called when the start or a step is in the files
   std::function<void()> after_step{};           ///< called when a step is in the files; may be empty
   Ranks ranks{};                                ///< ranks that run it together; the first one writes the files
   std::chrono::milliseconds checkpoint_lag{0};  ///< how far the checkpoint may lag behind the steps
@@ -74,7 +74,7 @@ class RecordedRun {
   Ranks ranks_;
   std::optional<RunRecorder> recorder_;  ///< on the first rank only
   bool is_recorded_;                     ///< whether the files have the state that the run starts from
-  TellStatus tell_;
+  OnStatus on_status_;
   std::function<void()> after_step_;
 };
 

@@ -20,6 +20,6 @@ struct RunStatus {
 };
 
 /// Called after every step; may be empty.
-using TellStatus = std::function<void(const RunStatus&)>;
+using OnStatus = std::function<void(const RunStatus&)>;
 
 }  // namespace vehd

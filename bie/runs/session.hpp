@@ -41,12 +41,12 @@ class RunSession {
   [[nodiscard]] std::vector<SceneChange> changes() const;
 
   /// The task of the session, which must outlive it.
-  [[nodiscard]] RunTask task(TellStatus tell) const {
-    return {scene_, paths_, checkpoint_, std::move(tell), {}, ranks_};
+  [[nodiscard]] RunTask task(OnStatus on_status) const {
+    return {scene_, paths_, checkpoint_, std::move(on_status), {}, ranks_};
   }
   /// Runs the session by `simulate`.
   /// @param checkpoint_lag  see RunTask
-  RunOutcome simulate(Interruption& interruption, TellStatus tell,
+  RunOutcome simulate(Interruption& interruption, OnStatus on_status,
                       std::chrono::milliseconds checkpoint_lag = longest_lag_of_files) const;
 
   /// Writes summary.json, on the first rank only. @return its content

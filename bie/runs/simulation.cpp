@@ -62,13 +62,15 @@ Simulation::Simulation(const Scene& scene, Checkpoint from, OutputUnits units, R
       meter_(from_.totals, instruments_, ranks_),
       start_time_(evolution_.state().time) {}
 
-int Simulation::start_order() const { return goes_on() ? static_cast<int>(from_.start_order) : scene_.numerics.order; }
+int Simulation::start_order() const {
+  return is_resumed() ? static_cast<int>(from_.start_order) : scene_.numerics.order;
+}
 
 Evolution Simulation::evolution_of_scene() {
   EvolutionSetup setup = setup_of(problem_);
   setup.ranks = ranks_;
   setup.time_text = [unit = time_unit_](double time) { return unit.text_of(time); };
-  if (goes_on()) return {std::move(setup), from_.state, instruments_};
+  if (is_resumed()) return {std::move(setup), from_.state, instruments_};
   return {std::move(setup), problem_.start, instruments_};
 }
 
@@ -81,7 +83,7 @@ void Simulation::step(const EventTimes& events) {
   last_ = evolution_.step(events);
   // Rows need only the numbers of the attempt.
   last_.state = {};
-  last_.passed.clear();
+  last_.dense_states.clear();
 }
 
 Checkpoint Simulation::checkpoint() const {
@@ -105,7 +107,7 @@ RecordedSide Simulation::side_of(const State& state, const Evaluation& evaluatio
 
 std::vector<RecordedSide> Simulation::sides() const {
   std::vector<RecordedSide> sides;
-  for (const Evolution::Moment& moment : evolution_.passed()) {
+  for (const Evolution::DenseOutput& moment : evolution_.dense_output()) {
     sides.push_back(side_of(moment.state, moment.evaluation, moment.gap, attempt_of(moment.evaluation, true)));
   }
   const State& state = evolution_.state();

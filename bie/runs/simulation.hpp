@@ -67,8 +67,8 @@ class Simulation {
   /// Takes one accepted step towards other times than those of the scene.
   /// @throws ConvergenceError as step()
   void step(const EventTimes& events);
-  /// See Evolution::allow_steps.
-  void allow_steps(double times) { evolution_.allow_steps(times); }
+  /// See Evolution::scale_largest_step.
+  void scale_largest_step(double times) { evolution_.scale_largest_step(times); }
 
   /// The rows of the history for the start or for the last step; those of snapshots within the step come first.
   [[nodiscard]] std::vector<RecordedSide> sides() const;
@@ -92,7 +92,7 @@ class Simulation {
   [[nodiscard]] const OutputUnits& units() const { return units_; }
 
  private:
-  [[nodiscard]] bool goes_on() const { return !from_.state.vesicles.empty(); }
+  [[nodiscard]] bool is_resumed() const { return !from_.state.vesicles.empty(); }
   [[nodiscard]] int start_order() const;
   Evolution evolution_of_scene();
   [[nodiscard]] RecordedSide side_of(const State& state, const Evaluation& evaluation, const SmallestGap& gap,

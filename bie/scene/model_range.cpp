@@ -68,9 +68,9 @@ double exposure(const std::optional<WaveformScene>& waveform, double end) {
 }
 
 /// Compares one vesicle with the limits of the model.
-class Judge {
+class ModelRangeChecks {
  public:
-  explicit Judge(const Scene& scene) : scene_(scene), groups_(dimensionless_groups(scene)) {
+  explicit ModelRangeChecks(const Scene& scene) : scene_(scene), groups_(dimensionless_groups(scene)) {
     if (!scene.electric) return;
     const auto& waveform = scene.electric->waveform;
     unit_field_ = vector_of(scene.electric->field).norm();
@@ -94,7 +94,7 @@ class Judge {
     return result;
   }
 
-  std::vector<ModelWarning> judge(const LargestValues& reached) {
+  std::vector<ModelWarning> checks(const LargestValues& reached) {
     if (!scene_.poration) judge_potential(reached.potential);
     if (scene_.membrane.mobile) judge_mechanics(reached);
     if (field_ > 0.0) judge_electrolyte();
@@ -230,8 +230,8 @@ class Judge {
 std::vector<ModelWarning> model_warnings(const Scene& scene, const std::optional<LargestValues>& reached) {
   std::vector<ModelWarning> all;
   for (const Scene& one : each_alone(scene)) {
-    Judge judge(one);
-    for (ModelWarning& warning : judge.judge(reached ? *reached : judge.expected())) {
+    ModelRangeChecks checks(one);
+    for (ModelWarning& warning : checks.checks(reached ? *reached : checks.expected())) {
       const auto known = std::ranges::find(all, warning.name, &ModelWarning::name);
       if (known == all.end()) {
         all.push_back(std::move(warning));

@@ -132,7 +132,7 @@ void settle_reduced_volume(const Scene& scene, ShapeScene& shape, const TomlFile
                       "\"excess_area\" in [shape] together with \"reduced_volume\"; accepted: one of them");
     }
     shape.reduced_volume = std::pow(1.0 + *shape.excess_area / (4.0 * std::numbers::pi), -1.5);
-    if (!key->takes(*shape.reduced_volume)) {
+    if (!key->accepts(*shape.reduced_volume)) {
       file.refuse_key(
           "shape", "excess_area",
           "\"excess_area\" in [shape] is {:g}, a reduced volume of {:.3g}; accepted: a reduced volume of {}",

@@ -96,7 +96,7 @@ bool KeyDescription::is_called(std::string_view word) const {
   return !word.empty() && (word == name || word == other_name);
 }
 
-bool KeyDescription::takes(double value) const {
+bool KeyDescription::accepts(double value) const {
   const double magnitude = unit == "time" ? std::min(std::abs(value), 1.0) : value;
   return range.contains(value) && has_magnitude_in_range(magnitude);
 }

@@ -75,7 +75,7 @@ struct KeyDescription {
   [[nodiscard]] bool is_called(std::string_view word) const;
   /// Is the number in the range, and 0 or within the accepted magnitudes (units.hpp)? Times have no upper limit of
   /// magnitude, because they are compared and not multiplied with each other.
-  [[nodiscard]] bool takes(double value) const;
+  [[nodiscard]] bool accepts(double value) const;
   /// Does the key belong to this kind of its table?
   [[nodiscard]] bool is_for(std::string_view kind) const;
   /// Name of its type.

@@ -79,7 +79,7 @@ std::pair<toml::table*, std::string> of_vesicle(toml::table& file, const std::st
 }
 
 /// Removes the other name of a key, and the other one of excess_area and reduced_volume: only one may be given.
-void forget_other_name(toml::table& file, const std::string& name) {
+void erase_conflicting_keys(toml::table& file, const std::string& name) {
   const std::size_t last = name.rfind('.');
   const std::string table = name.substr(0, last), word = name.substr(last + 1);
   const KeyDescription* key = find_key(table, word);
@@ -118,7 +118,7 @@ void apply_settings(toml::table& file, const std::vector<std::string>& settings)
     const auto [key, given] = assignment_of(setting);
     const auto [owner, own_key] =
         key.starts_with(vesicle_prefix) ? of_vesicle(file, key, setting) : std::pair(&file, key);
-    forget_other_name(*owner, own_key);
+    erase_conflicting_keys(*owner, own_key);
     const std::string value = is_toml_value(given) ? given : to_toml(Value(given));
     merge_tables(*owner, toml::parse(own_key + " = " + value + "\n", std::string(option) + setting));
   }

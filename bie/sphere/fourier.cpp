@@ -33,7 +33,7 @@ constexpr int kMostByProducts = 32;
 #endif
 
 /// Workspace of `count` numbers, one per thread. Rows are summed so often that allocation would take noticeable time.
-double* of_this_thread(Index count) {
+double* thread_workspace(Index count) {
   thread_local std::unique_ptr<double[]> numbers;
   thread_local Index n_numbers = 0;
   if (count > n_numbers) {
@@ -293,7 +293,7 @@ void FourierSums::synthesize_quarter_turns(Index n_theta, const HemisphereAmplit
 }
 
 void FourierSums::synthesize_fast(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const {
-  double* rows = of_this_thread((2 * order_ + 1) * n_theta);
+  double* rows = thread_workspace((2 * order_ + 1) * n_theta);
   for (int m = 0; m <= order_; ++m) {
     for (const bool sine : {false, true}) {
       if (sine && m == 0) continue;
@@ -310,13 +310,13 @@ void FourierSums::synthesize_fast(Index n_theta, const HemisphereAmplitudes& amp
   fast_->synthesize(n_theta, rows, n_theta, values);
 }
 
-void FourierSums::analyze(Index n_theta, const double* values, const FoundAmplitudes& amplitudes) const {
+void FourierSums::analyze(Index n_theta, const double* values, const AnalysedAmplitudes& amplitudes) const {
   if (n_phi_ == kQuarterTurns && order_ == 1) return analyze_quarter_turns(n_theta, values, amplitudes);
   if (fast_) return analyze_fast(n_theta, values, amplitudes);
   const Index n_half = (n_theta + 1) / 2, size = n_half * n_quarter_;
-  double* folded = of_this_thread(FoundAmplitudes::kBlocks * size);
+  double* folded = thread_workspace(AnalysedAmplitudes::kBlocks * size);
   const auto place = [&](int part, int parity, bool sine) {
-    return folded + FoundAmplitudes::number(part, parity, sine) * size;
+    return folded + AnalysedAmplitudes::number(part, parity, sine) * size;
   };
   for (Index i = 0; i < n_half; ++i) {
     const auto rows = [&](int part) {
@@ -336,7 +336,7 @@ void FourierSums::analyze(Index n_theta, const double* values, const FoundAmplit
     for (const int parity : {0, 1}) {
       for (const bool sine : {false, true}) {
         const RowMatrix& table = analysis_[parity][sine ? 1 : 0];
-        const int number = FoundAmplitudes::number(part, parity, sine);
+        const int number = AnalysedAmplitudes::number(part, parity, sine);
         small_product(n_half, n_quarter_, row_length_, {folded + number * size, n_quarter_, 1}, table.data(),
                       row_length_, amplitudes.data + number * amplitudes.block, row_length_);
       }
@@ -344,14 +344,15 @@ void FourierSums::analyze(Index n_theta, const double* values, const FoundAmplit
   }
 }
 
-void FourierSums::analyze_quarter_turns(Index n_theta, const double* values, const FoundAmplitudes& amplitudes) const {
+void FourierSums::analyze_quarter_turns(Index n_theta, const double* values,
+                                        const AnalysedAmplitudes& amplitudes) const {
   for (Index i = 0; i < (n_theta + 1) / 2; ++i) {
     const double *north = values + i * kQuarterTurns, *south = values + (n_theta - 1 - i) * kQuarterTurns;
     for (const int part : {0, 1}) {
       const double sign = north == south ? 0.0 : part == 0 ? 1.0 : -1.0;
       const auto value = [&](int k) { return north[k] + sign * south[k]; };
       const auto to = [&](int m, bool sine) {
-        return amplitudes.data + FoundAmplitudes::number(part, m, sine) * amplitudes.block + i * row_length_;
+        return amplitudes.data + AnalysedAmplitudes::number(part, m, sine) * amplitudes.block + i * row_length_;
       };
       *to(0, false) = 0.25 * ((value(0) + value(2)) + (value(1) + value(3)));
       *to(1, false) = 0.5 * (value(0) - value(2));
@@ -360,9 +361,9 @@ void FourierSums::analyze_quarter_turns(Index n_theta, const double* values, con
   }
 }
 
-void FourierSums::analyze_fast(Index n_theta, const double* values, const FoundAmplitudes& amplitudes) const {
+void FourierSums::analyze_fast(Index n_theta, const double* values, const AnalysedAmplitudes& amplitudes) const {
   const Index n_modes = 2 * order_ + 1;
-  double* rows = of_this_thread(n_modes * n_theta);
+  double* rows = thread_workspace(n_modes * n_theta);
   fast_->analyze(n_theta, values, rows);
   for (Index i = 0; i < (n_theta + 1) / 2; ++i) {
     const double *north = rows + i * n_modes, *south = rows + (n_theta - 1 - i) * n_modes;
@@ -372,7 +373,7 @@ void FourierSums::analyze_fast(Index n_theta, const double* values, const FoundA
         const Index mode = sine ? order_ + m : m;
         for (const int part : {0, 1}) {
           const double sign = north == south ? 0.0 : part == 0 ? 1.0 : -1.0;
-          double* block = amplitudes.data + FoundAmplitudes::number(part, m, sine) * amplitudes.block;
+          double* block = amplitudes.data + AnalysedAmplitudes::number(part, m, sine) * amplitudes.block;
           block[i * row_length_ + m / 2] = north[mode] + sign * south[mode];
         }
       }

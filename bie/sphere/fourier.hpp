@@ -20,7 +20,7 @@ struct HemisphereAmplitudes {
 /// Layout of the amplitudes that analysis computes: one block for each part, parity of m, and cosine or sine, numbered
 /// in this order with the last index fastest. Block b is at data + b * block: [latitudes x row_length] with order m in
 /// column m/2.
-struct FoundAmplitudes {
+struct AnalysedAmplitudes {
   static constexpr int kBlocks = 8;
   double* data;
   Index block;
@@ -40,14 +40,14 @@ class FourierSums {
   /// @throws ShapeError if n_phi is odd
   FourierSums(int n_phi, int order);
 
-  /// Row length of FoundAmplitudes.
+  /// Row length of AnalysedAmplitudes.
   [[nodiscard]] Index row_length() const { return row_length_; }
 
   /// @param values  [n_theta x n_phi], φ fastest
   void synthesize(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
   /// Amplitudes of northern latitudes plus (antisymmetric part: minus) their mirror images; the equator counts once.
   /// Exact for Fourier modes up to the order.
-  void analyze(Index n_theta, const double* values, const FoundAmplitudes& amplitudes) const;
+  void analyze(Index n_theta, const double* values, const AnalysedAmplitudes& amplitudes) const;
 
  private:
   /// Cosines, sines and minus sines of even and of odd orders.
@@ -61,8 +61,8 @@ class FourierSums {
   void synthesize_rows(Index first, Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
   void synthesize_quarter_turns(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
   void synthesize_fast(Index n_theta, const HemisphereAmplitudes& amplitudes, double* values) const;
-  void analyze_quarter_turns(Index n_theta, const double* values, const FoundAmplitudes& amplitudes) const;
-  void analyze_fast(Index n_theta, const double* values, const FoundAmplitudes& amplitudes) const;
+  void analyze_quarter_turns(Index n_theta, const double* values, const AnalysedAmplitudes& amplitudes) const;
+  void analyze_fast(Index n_theta, const double* values, const AnalysedAmplitudes& amplitudes) const;
 
   int n_phi_;
   int order_;

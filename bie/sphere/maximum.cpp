@@ -76,19 +76,19 @@ Top top_of(const SphereGrid& grid, const SphereDerivatives& nodes, Index column,
 
   Index largest = 0;
   const double most = (sign * nodes.value.col(column)).maxCoeff(&largest);
-  std::vector<std::pair<double, Index>> promises;
+  std::vector<std::pair<double, Index>> candidates;
   for (Index node = 0; node < grid.n_points(); ++node) {
     const double value = sign * nodes.value(node, column);
     // Along either axis a parabola gains less than its slope times the reach.
     const double d1 = nodes.d1(node, column), d2 = nodes.d2(node, column);
     const double gain = std::numbers::sqrt2 * std::sqrt(d1 * d1 + d2 * d2) * reach;
     if (node == largest || value + gain < most) continue;
-    if (const Climb next = climb_from(node); next.near) promises.emplace_back(value + next.gain, node);
+    if (const Climb next = climb_from(node); next.near) candidates.emplace_back(value + next.gain, node);
   }
-  std::sort(promises.begin(), promises.end(), std::greater<>());
+  std::sort(candidates.begin(), candidates.end(), std::greater<>());
   Top top = top_above(largest);
   std::vector<Vector3> climbed{direction(point_of(grid, largest))};
-  for (const auto& [promise, node] : promises) {
+  for (const auto& [promise, node] : candidates) {
     constexpr std::size_t kHumps = 4;
     constexpr double kApart = 3.0;
     if (climbed.size() == kHumps) break;

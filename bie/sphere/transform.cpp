@@ -105,7 +105,7 @@ struct SphereTransform::Tables {
                    const DegreeSums& sums) const;
   /// Values of one kind of one field. @param place  index of the kind within the range
   void sum_orders(const DegreeSums& sums, Index n_fields, Index field, int kind, Index place, double* values) const;
-  /// FoundAmplitudes of all fields, one after another in every block.
+  /// AnalysedAmplitudes of all fields, one after another in every block.
   struct OrderAmplitudes {
     Index of_field;
     Index block;
@@ -196,7 +196,8 @@ void SphereTransform::Tables::find_degrees(const OrderAmplitudes& amplitudes, in
   for (const int parity : {0, 1}) {
     const RowMatrix& table = analysis[m][parity];
     // The block of the sines is the next one.
-    const double* first = amplitudes.data.get() + FoundAmplitudes::number(parity, m, false) * amplitudes.block + m / 2;
+    const double* first =
+        amplitudes.data.get() + AnalysedAmplitudes::number(parity, m, false) * amplitudes.block + m / 2;
     small_product((m == 0 ? 1 : 2) * n_fields, n_half, table.cols(), {first, amplitudes.of_field, length}, table.data(),
                   table.cols(), sums, table.cols());
     for (Index field = 0; field < n_fields; ++field) {
@@ -218,7 +219,7 @@ Matrix SphereTransform::Tables::analyze(const Matrix& values) const {
   if (azimuthal_order < order) coefficients.setZero();
   const Index of_field = n_half * fourier.row_length(), block = n_fields * of_field;
   const OrderAmplitudes amplitudes{of_field, block,
-                                   std::make_unique_for_overwrite<double[]>(FoundAmplitudes::kBlocks * block)};
+                                   std::make_unique_for_overwrite<double[]>(AnalysedAmplitudes::kBlocks * block)};
   const auto find_orders = [&](Index field) {
     fourier.analyze(grid.n_theta, values.col(field).data(), {amplitudes.data.get() + field * of_field, block});
   };

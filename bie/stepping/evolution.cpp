@@ -204,19 +204,20 @@ void Evolution::arrive(State state) {
   before_jump_ = std::move(before);
 }
 
-std::vector<Evolution::Moment> Evolution::evaluated(const std::vector<State>& passed, StepAttempt& attempt) {
-  std::vector<Moment> moments(passed.size());
-  attempt.evaluations += static_cast<int>(passed.size());
+std::vector<Evolution::DenseOutput> Evolution::evaluate_dense_output(const std::vector<State>& states,
+                                                                     StepAttempt& attempt) {
+  std::vector<DenseOutput> output(states.size());
+  attempt.evaluations += static_cast<int>(states.size());
   for_each_side_by_side(
-      std::ssize(passed), discretisation_.leaves_threads_idle(), instruments_, [&](Index i, Instruments& instruments) {
-        const State& state = passed[static_cast<std::size_t>(i)];
-        Moment& moment = moments[static_cast<std::size_t>(i)];
+      std::ssize(states), discretisation_.leaves_threads_idle(), instruments_, [&](Index i, Instruments& instruments) {
+        const State& state = states[static_cast<std::size_t>(i)];
+        DenseOutput& at = output[static_cast<std::size_t>(i)];
         Evaluation evaluation = evaluate(setup_.model, discretisation_, state, instruments, &evaluation_);
-        moment = {state, without_operators(std::move(evaluation)),
-                  find_smallest_gap(state, discretisation_, setup_.model.wall)};
-        for (VesicleState& vesicle : moment.state.vesicles) vesicle.recycled = {};
+        at = {state, without_operators(std::move(evaluation)),
+              find_smallest_gap(state, discretisation_, setup_.model.wall)};
+        for (VesicleState& vesicle : at.state.vesicles) vesicle.recycled = {};
       });
-  return moments;
+  return output;
 }
 
 StepPlan Evolution::plan_towards(const EventTimes& events, double wanted) const {
@@ -260,10 +261,10 @@ Evolution::Reaction Evolution::react(StepAttempt& attempt, const StepPlan& plan,
     if (raise_orders_for(attempt, raised)) return Reaction::repeat_in_higher_degree;
     if (plan.reaches_event) attempt.state.time = plan.event_time;
     set_next_size(setup_.control, state_, plan, attempt);
-    std::vector<Moment> passed = evaluated(attempt.passed, attempt);
+    std::vector<DenseOutput> output = evaluate_dense_output(attempt.dense_states, attempt);
     arrive(attempt.state);
-    for (Moment& moment : passed) report_crossings(state_, moment.state.time, moment.evaluation);
-    passed_ = std::move(passed);
+    for (DenseOutput& at : output) report_crossings(state_, at.state.time, at.evaluation);
+    dense_output_ = std::move(output);
     return Reaction::accept;
   } catch (const ConvergenceError& error) {
     // With a smaller step the solves may converge.

@@ -71,7 +71,7 @@ class Evolution {
   /// Latest end of the next step towards these times.
   [[nodiscard]] double reach(const EventTimes& events) const;
   /// Multiplies the largest step size by this factor; only with a tolerance.
-  void allow_steps(double times) {
+  void scale_largest_step(double times) {
     if (adapts()) setup_.control.largest *= times;
   }
 
@@ -88,13 +88,13 @@ class Evolution {
   [[nodiscard]] const std::optional<Evaluation>& before_jump() const { return before_jump_; }
   /// A time within the last step at which a snapshot was due, in a run with a tolerance: the state comes from the
   /// polynomial of the step, and its evaluation has no operators. No step ends there.
-  struct Moment {
+  struct DenseOutput {
     State state;
     Evaluation evaluation;
     SmallestGap gap;
   };
   /// The snapshots within the last step.
-  [[nodiscard]] const std::vector<Moment>& passed() const { return passed_; }
+  [[nodiscard]] const std::vector<DenseOutput>& dense_output() const { return dense_output_; }
   /// Degree of a vesicle at present.
   [[nodiscard]] int order(std::size_t vesicle) const { return discretisation_.vesicle(vesicle).order(); }
   /// Largest estimated truncation error of all vesicles, see Resolution.
@@ -129,7 +129,7 @@ class Evolution {
   enum class Reaction { accept, repeat_smaller, repeat_in_higher_degree };
   Reaction react(StepAttempt& attempt, const StepPlan& plan, std::vector<bool>& raised);
   void raise_order(std::size_t vesicle, const Resolution& reached, int enough);
-  [[nodiscard]] std::vector<Moment> evaluated(const std::vector<State>& passed, StepAttempt& attempt);
+  [[nodiscard]] std::vector<DenseOutput> evaluate_dense_output(const std::vector<State>& states, StepAttempt& attempt);
   bool raise_orders_for(const StepAttempt& attempt, std::vector<bool>& raised);
   void coarsen_order(std::size_t vesicle);
   void coarsen_quadrature(std::size_t vesicle);
@@ -146,7 +146,7 @@ class Evolution {
   double growth_ = 1.0;               // of wrinkles, see growth_of_wrinkles, with a tolerance
   std::vector<StartMembrane> start_;  // empty once it is evaluated
   std::optional<Evaluation> before_jump_;
-  std::vector<Moment> passed_;
+  std::vector<DenseOutput> dense_output_;
   KeepFormer keep_former_;
 };
 

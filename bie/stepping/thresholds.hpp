@@ -26,7 +26,7 @@ constexpr double known_strain = 5e-3;
 /// Estimated error allowed in one step: the errors of about three steps add up. Measured.
 constexpr double step_share = 0.35;
 /// Estimated error allowed in a state within the step. Measured.
-constexpr double moment_share = 0.25;
+constexpr double dense_output_share = 0.25;
 /// Truncation error, and change of tension and charge at the start by two more degrees; the rest is for the step.
 constexpr double truncation_share = 0.3;
 

@@ -7,16 +7,16 @@
 
 namespace vehd {
 
-/// CRC-32 of bytes given in parts: the same however they are divided. Every change of one bit and of bits within 32
-/// neighbouring ones is noticed, any other with probability 1 − 2⁻³².
+/// CRC-32 of bytes added in parts; the result does not depend on the division into parts. Every change confined to 32
+/// consecutive bits is detected, any other with probability 1 − 2⁻³².
 /// Source: the CRC-32 of zlib
 class Checksum {
  public:
   Checksum() = default;
-  /// Continues from the value that another one had reached.
+  /// Continues from the value of another checksum.
   explicit Checksum(std::int64_t value) : value_(static_cast<std::uint32_t>(value)) {}
 
-  /// Adds bytes behind those so far; numbers as this machine stores them.
+  /// Appends bytes; numbers in the representation of this machine.
   void add(std::string_view bytes);
   void add(std::span<const double> values);
   void add(std::int64_t value);

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Python may have started this, so it is the library that says where it is.
+/// The executable may be Python, so this library gives the path.
 fs::path folder_of_this_library() {
   Dl_info info{};
   if (::dladdr(reinterpret_cast<const void*>(&folder_of_this_library), &info) == 0) return {};
@@ -31,17 +31,17 @@ fs::path folder_of_this_library() {
 
 }  // namespace
 
-fs::path place_of_program(const std::string& name) { return place_of_program(name, folder_of_this_library()); }
+fs::path program_path(const std::string& name) { return program_path(name, folder_of_this_library()); }
 
-fs::path place_of_program(const std::string& name, const fs::path& libraries) {
+fs::path program_path(const std::string& name, const fs::path& libraries) {
   const fs::path programs = libraries / "programs";
   std::error_code error;
   if (libraries.empty() || !fs::is_directory(programs, error)) return name;
   const fs::path root = libraries.parent_path().parent_path();
-  // Whoever has fonts of their own keeps them.
+  // Fonts that the user has configured take precedence.
   ::setenv("FONTCONFIG_FILE", (root / "share/vehd/fonts.conf").c_str(), 0);
   if (fs::is_directory(root / "share/openmpi", error)) {
-    // The libraries of the archive must not load plugins of another Open MPI, whatever a cluster sets.
+    // The libraries of the archive must not load plugins of another Open MPI that a cluster sets.
     ::setenv("OPAL_PREFIX", root.c_str(), 1);
     ::setenv("PMIX_PREFIX", (root / "lib/x86_64-linux-gnu/pmix2").c_str(), 1);
   }
@@ -52,15 +52,15 @@ namespace {
 
 constexpr long grace_milliseconds = 800;
 constexpr long look_milliseconds = 5;
-/// The first that is not one of the three standard ones.
+/// The first after the three standard ones.
 constexpr int connection_to_owner = STDERR_FILENO + 1;
 
-/// Prepared before the fork: the child of a process with several threads must not take memory.
+/// Prepared before the fork: the child of a process with several threads must not allocate memory.
 struct Start {
   const char* file;  ///< a path, or a name to look for in PATH
   char* const* words;
-  const char* output;  ///< null: none of its own
-  const char* folder;  ///< null: none of its own
+  const char* output;  ///< null: that of this process
+  const char* folder;  ///< null: that of this process
 };
 
 long milliseconds_now() {
@@ -75,7 +75,7 @@ ChildEnd end_of(int status) {
   return WIFEXITED(status) ? ChildEnd{.exit_code = WEXITSTATUS(status)} : ChildEnd{.signal = WTERMSIG(status)};
 }
 
-/// The program itself, in the last of the three processes.
+/// Becomes the program, in the last of the three processes.
 [[noreturn]] void become(const Start& start, pid_t guardian) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != guardian) ::_exit(1);
@@ -95,7 +95,7 @@ ChildEnd end_of(int status) {
 /// Sends SIGKILL to every child of this process.
 void kill_children() {
   const int list = ::open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
-  // Where the kernel keeps no such list, its own group is what the guardian can reach, itself included.
+  // Without such a list the guardian can only reach its own process group, itself included.
   if (list < 0) ::kill(0, SIGKILL);
   std::array<char, 4096> text{};
   pid_t process = 0;
@@ -113,8 +113,8 @@ void kill_children() {
   ::close(list);
 }
 
-/// Waits for all children, also those that were left to this process; kills what is there after the grace.
-/// @return the end of the program
+/// Waits for all children, adopted ones included; kills those that are left after the grace period.
+/// @return outcome of the program
 ChildEnd end_everything(pid_t program) {
   ChildEnd end;
   const long deadline = milliseconds_now() + grace_milliseconds;
@@ -124,20 +124,20 @@ ChildEnd end_everything(pid_t program) {
     if (ended < 0 && errno == ECHILD) return end;
     if (ended == program) end = end_of(status);
     if (ended > 0) continue;
-    // What is killed leaves its own children to this process, so there is more than one round.
+    // This process adopts the children of killed ones, so several rounds may be needed.
     if (milliseconds_now() >= deadline) kill_children();
     const timespec pause{0, look_milliseconds * 1'000'000};
     ::nanosleep(&pause, nullptr);
   }
 }
 
-/// The process in between: starts the program and sees to its end.
+/// The guardian process: starts the program and ensures that all its processes end.
 [[noreturn]] void guard(const Start& start, int connection) {
   ::setsid();
   prctl(PR_SET_NAME, "vehd-guard");
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   std::signal(SIGCHLD, SIG_DFL);
-  // Locks and pipes of the owner must not live on here.
+  // Locks and pipes of the owner must not stay open here.
   if (connection != connection_to_owner) ::dup3(connection, connection_to_owner, O_CLOEXEC);
   ::close_range(connection_to_owner + 1, ~0U, 0);
 
@@ -150,7 +150,7 @@ ChildEnd end_everything(pid_t program) {
     if (program > 0) ::kill(program, SIGKILL);
     ::_exit(1);
   }
-  // The owner says nothing: whatever happens on its side is its end.
+  // The owner sends nothing: any event on its side is its end.
   std::array<pollfd, 2> awaited{{{connection_to_owner, POLLIN, 0}, {program_end, POLLIN, 0}}};
   while (::poll(awaited.data(), awaited.size(), -1) < 0 && errno == EINTR) {
   }
@@ -167,18 +167,18 @@ ChildEnd run_child(const ChildProgram& program) {
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   const auto path_or_null = [](const std::filesystem::path& path) { return path.empty() ? nullptr : path.c_str(); };
-  // Open MPI takes another path in its first word for a wish to run its daemons from there: the words stay as they are.
-  const std::filesystem::path file = place_of_program(program.words[0]);
+  // Open MPI takes a path in its first word as a request to run its daemons from there, so the words stay as they are.
+  const std::filesystem::path file = program_path(program.words[0]);
   const Start start{file.c_str(), pointers.data(), path_or_null(program.output), path_or_null(program.folder)};
   std::array<int, 2> connection{};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, connection.data()) != 0) return {.start_problem = errno};
-  // What this program has printed so far comes first.
+  // Earlier output of this program comes first.
   std::fflush(stdout);
   const pid_t guardian = ::fork();
   if (guardian == 0) guard(start, connection[1]);
   const int fork_problem = errno;
   ::close(connection[1]);
-  // Nothing is reported where the guardian itself was killed.
+  // Holds if the guardian was killed, which then reports nothing.
   ChildEnd end{.signal = SIGKILL};
   if (guardian < 0) {
     end = {.start_problem = fork_problem};

@@ -29,7 +29,7 @@ inline Matrix parts_of(const FieldOf<std::complex<double>>& z) {
   return parts;
 }
 
-/// The field [n] of its real and imaginary parts, the inverse of parts_of.
+/// The field [n] with these real and imaginary parts, the inverse of parts_of.
 template <typename Scalar>
 FieldOf<Scalar> from_parts(const Matrix& parts) {
   if constexpr (std::is_same_v<Scalar, double>) {
@@ -42,7 +42,7 @@ FieldOf<Scalar> from_parts(const Matrix& parts) {
 /// |z|, [n].
 inline Vector magnitudes(const Matrix& z) { return z.rowwise().norm(); }
 
-/// arg z in degrees, [n]; 0 where |z| is a rounding error of the largest.
+/// arg z in degrees, [n]; 0 if |z| is at most 1e-9 of the largest.
 inline Vector phases_deg(const Matrix& z) {
   constexpr double kRounding = 1e-9;
   const Vector sizes = magnitudes(z);

@@ -18,7 +18,7 @@
 namespace vehd {
 namespace {
 
-/// As many as Linux follows itself.
+/// The limit of Linux.
 constexpr int most_links = 40;
 
 struct DescriptorCloser {
@@ -31,13 +31,13 @@ bool is_link(const std::filesystem::path& path) {
   return std::filesystem::is_symlink(path, ignored);
 }
 
-/// There, and no regular file.
+/// Exists and is not a regular file.
 bool is_no_regular_file(const std::filesystem::file_status& status) {
   return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
 }
 
-/// Of /proc/self/fd/N, under any name of that folder. What stands there looks like a link, but opened by its name a
-/// file would begin anew, and a socket not open at all.
+/// N of a path /proc/self/fd/N, under any name of that folder. The entry looks like a link, but opening it by name
+/// would start a file from its beginning, and fails for a socket.
 std::optional<int> descriptor_of(const std::filesystem::path& path) {
   std::error_code problem, self_problem;
   const std::filesystem::path folder = std::filesystem::canonical(path.parent_path(), problem);
@@ -160,8 +160,8 @@ void exchange_files(const std::filesystem::path& path, const std::filesystem::pa
 
 void exchange_by_renames(const std::filesystem::path& path, const std::filesystem::path& other) {
   const std::filesystem::path link = link_of(path);
-  // The link keeps the file reachable while its name moves to the other one; file systems without hard links get a
-  // copy.
+  // The link keeps the first file reachable while the other one takes its name; a copy does on file systems without
+  // hard links.
   std::error_code error;
   std::filesystem::create_hard_link(path, link, error);
   if (error) std::filesystem::copy_file(path, link, std::filesystem::copy_options::overwrite_existing, error);
@@ -199,7 +199,7 @@ TemporaryFolder::~TemporaryFolder() {
 
 namespace {
 
-/// Not one of the three that programs expect to be open.
+/// Above the three descriptors that programs expect to be open.
 constexpr int lowest_descriptor = STDERR_FILENO + 1;
 
 }  // namespace

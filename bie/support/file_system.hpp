@@ -22,34 +22,34 @@ std::filesystem::path link_of(const std::filesystem::path& path);
 /// Path of the temporary file beside `path` that a replacement is written to first.
 std::filesystem::path temporary_of(const std::filesystem::path& path);
 
-/// The target at the end of a path's links.
+/// Target at the end of a chain of symbolic links.
 struct LinkEnd {
-  std::filesystem::path path;     ///< no link itself; there need not be a file
-  std::optional<int> descriptor;  ///< of this program, where the path is /dev/stdout, /dev/fd/3 or the like
+  std::filesystem::path path;     ///< not a link itself; the file need not exist
+  std::optional<int> descriptor;  ///< of this process, if the path is /dev/stdout, /dev/fd/3 or similar
 };
 
-/// Follows links, also where the last one leads to no file.
-/// @throws OutputError if they go in a circle
+/// Follows links, also if the last one leads to a file that does not exist.
+/// @throws OutputError after 40 links, as in a cycle
 LinkEnd end_of_links(const std::filesystem::path& path);
 
-/// Writes the text to where the path leads, links followed. A regular file, or one that is not there yet, is replaced
-/// in one step: a reader sees the old or the new text, never a part. Into anything else (pipe, terminal, device) the
-/// text is written; a pipe waits for its reader.
+/// Writes the text to the target of the path, links followed. A regular file, existing or new, is replaced in one step:
+/// a reader sees the old or the new text, never a part. To any other target (pipe, terminal, device) the text is
+/// written directly; a pipe waits for its reader.
 /// @throws OutputError
 void replace_file(const std::filesystem::path& path, const std::string& text);
 
-/// Replaces a file in one step, also where processes of several machines do so at once.
+/// Replaces a file in one step, even if processes of several machines do so at the same time.
 /// @throws OutputError
 void replace_shared_file(const std::filesystem::path& path, const std::string& text);
 
-/// A hidden name beside `path` that no other call gives, of whatever process and machine.
+/// A hidden name beside `path` that differs from call to call, by process and time.
 std::filesystem::path unique_name_beside(const std::filesystem::path& path);
 
-/// Creates a folder with its parents; one that is there already is as good.
+/// Creates a folder with its parents; does nothing if it exists.
 /// @throws OutputError
 void make_directory(const std::filesystem::path& directory);
 
-/// Files of a folder whose names end like that (".toml"), in the order of their names; none if it cannot be read.
+/// Files of a folder with this extension (".toml"), sorted by name; none if the folder cannot be read.
 std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder, const std::string& extension);
 
 /// Content of a file; empty if it cannot be read.
@@ -63,13 +63,12 @@ void write_to_descriptor(int descriptor, const std::string& text, const std::fil
 /// @throws OutputError
 void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Exchanges two names in a folder, in one step where the file system can; elsewhere by
-/// `exchange_by_renames`.
+/// Exchanges two names in a folder, in one step if the file system supports it, otherwise by `exchange_by_renames`.
 /// @throws OutputError
 void exchange_files(const std::filesystem::path& path, const std::filesystem::path& other);
 
 /// Exchanges two names in steps between which `path` always names one of the two files; a kill can leave `other`
-/// missing and a hidden link to the file that was `path`.
+/// missing and a hidden link to the original file of `path`.
 /// @throws OutputError
 void exchange_by_renames(const std::filesystem::path& path, const std::filesystem::path& other);
 
@@ -77,10 +76,10 @@ void exchange_by_renames(const std::filesystem::path& path, const std::filesyste
 /// @throws OutputError
 void synchronise_file(const std::filesystem::path& path);
 
-/// "path: cannot be written: reason" with the reason of errno.
+/// "path: cannot be written: reason", with the reason from errno.
 std::string write_problem(const std::filesystem::path& path);
 
-/// A folder among the temporary files of the machine that ends with its owner.
+/// A temporary folder that is deleted with this object.
 /// @throws OutputError
 class TemporaryFolder {
  public:
@@ -96,7 +95,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// File that is deleted at the end of its scope.
+/// A file that is deleted at the end of the scope of this object.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::filesystem::path path) : path_(std::move(path)) {}
@@ -112,8 +111,8 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-/// Where a command leaves the result that a program reads: a file, a pipe, or standard output, which "-" stands for.
-/// From construction on, output of the command goes to standard error if the result goes to standard output.
+/// Destination of a result that another program reads: a file, a pipe, or standard output ("-"). From construction on,
+/// other output of the command goes to standard error if the result goes to standard output.
 class ResultFile {
  public:
   /// @throws OutputError if standard output cannot be kept for the result
@@ -122,7 +121,7 @@ class ResultFile {
   ResultFile(const ResultFile&) = delete;
   ResultFile& operator=(const ResultFile&) = delete;
 
-  /// As `replace_file`.
+  /// Writes the text as `replace_file` does.
   /// @throws OutputError
   void write(const std::string& text) const;
 

@@ -7,27 +7,27 @@
 
 namespace vehd {
 
-/// Told when a part of the work begins and ends; parts may lie within one another.
+/// Observer of the beginning and end of parts of the work; parts may be nested.
 class PartObserver {
  public:
   virtual ~PartObserver() = default;
-  /// A part begins; it lies within those that have begun and not ended.
+  /// A part begins, within all those that have begun and not ended.
   virtual void begin(const std::string& part) = 0;
-  /// The part that began last ends.
+  /// The innermost part ends.
   virtual void end() = 0;
 };
 
-/// Operation counters and accumulated wall times of one run, passed explicitly to whatever does counted work.
+/// Operation counters and accumulated wall times of one run, passed explicitly to all code that does counted work.
 /// Not thread safe: parallel regions count once, outside.
 class Instruments {
  public:
-  /// @param observer  outlives this; null: none
+  /// @param observer  must outlive this; null: none
   explicit Instruments(PartObserver* observer = nullptr) : observer_(observer) {}
   Instruments(const Instruments&) = delete;
   Instruments& operator=(const Instruments&) = delete;
 
-  /// Adds the time between construction and destruction to one part, and takes it from the part around it: the parts
-  /// add up to the time in any of them.
+  /// Adds the time between construction and destruction to one part and subtracts it from the enclosing part, so that
+  /// the parts add up to the time spent in any of them.
   class ScopedTimer {
    public:
     ScopedTimer(Instruments& instruments, const std::string& part)
@@ -52,15 +52,15 @@ class Instruments {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   };
 
-  /// Kernel evaluations are counted one per (target, quadrature node) pair, whatever the number of components.
+  /// Counts kernel evaluations, one per (target, quadrature node) pair whatever the number of components.
   void count_kernel(const std::string& kernel, std::uint64_t evaluations) { kernels_[kernel] += evaluations; }
-  /// Counts targets on one membrane of the layers of another, by the way that these take there.
+  /// Counts targets on one membrane of the layers of another, by the method of evaluation ("near", "far", "expanded").
   void count_pair_targets(const std::string& way, std::uint64_t targets) { pair_targets_[way] += targets; }
   /// Times a part until the end of the scope.
   [[nodiscard]] ScopedTimer time(const std::string& part) { return {*this, part}; }
 
-  /// Adds what others have counted that ran side by side, on threads. Each part gets its share of the wall time that
-  /// they took together, which is taken from the part around it.
+  /// Adds the counts of instruments whose work ran concurrently on threads. Each part gets its share of their joint
+  /// wall time, which is subtracted from the enclosing part.
   template <class Others>
   void take_side_by_side(const Others& others, double wall_seconds) {
     double sum = 0.0;
@@ -78,7 +78,7 @@ class Instruments {
 
   /// Evaluations so far by the name of the kernel.
   const std::map<std::string, std::uint64_t>& kernel_evaluations() const { return kernels_; }
-  /// Targets of pairs so far by the way that the layers take.
+  /// Targets of pairs so far by the method of evaluation.
   const std::map<std::string, std::uint64_t>& pair_targets() const { return pair_targets_; }
   /// Wall time so far by the name of the part.
   const std::map<std::string, double>& seconds() const { return seconds_; }

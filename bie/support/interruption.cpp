@@ -10,13 +10,13 @@ Interruption::Interruption() {
   sigemptyset(&signals_);
   sigaddset(&signals_, SIGINT);
   sigaddset(&signals_, SIGTERM);
-  // Of all signals that ask for an end mpirun hands on this one alone.
+  // Of all signals that request an end, mpirun forwards only this one.
   sigaddset(&signals_, SIGUSR1);
   pthread_sigmask(SIG_BLOCK, &signals_, &former_mask_);
 }
 
 Interruption::~Interruption() {
-  // Signals that arrived meanwhile have been answered and must not end the process now.
+  // Signals that arrived meanwhile have been handled: drain them, or they would end the process once unblocked.
   while (requested()) requested_ = false;
   pthread_sigmask(SIG_SETMASK, &former_mask_, nullptr);
 }

@@ -5,13 +5,13 @@
 
 namespace vehd {
 
-/// A signal has ended work that is more than one run, or a trial. Exit code 3.
+/// A signal ended a command that consists of several runs, or a trial run. Exit code 3.
 class Interrupted : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// While alive, SIGINT, SIGTERM and SIGUSR1 wait until `requested` looks for them, so that a step is never torn.
+/// While an object exists, SIGINT, SIGTERM and SIGUSR1 stay pending until `requested` polls them, so no step is torn.
 /// Threads started later inherit this; create it before the first parallel region.
 class Interruption {
  public:

@@ -3,19 +3,19 @@
 #include <cstring>
 
 #ifndef __AVX__
-// Vectors of four numbers are passed between functions of one file alone, whatever others agree on.
+// Vectors of four numbers are passed only within one file, so calling conventions of other files do not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
 namespace vehd {
 
-/// So many numbers side by side, a register of the compiler's own kind or some of them: what arrays and classes hold
-/// goes through memory between one loop and the next.
+/// kWidth numbers side by side in the vector type of the compiler, one register or several. Arrays and classes would go
+/// through memory between one loop and the next.
 template <int kWidth>
 struct Lanes {
   using Values [[gnu::vector_size(kWidth * sizeof(double))]] = double;
 
-  /// The values that stand from there on.
+  /// The kWidth values from this address on.
   static Values load(const double* at) {
     Values values;
     std::memcpy(&values, at, sizeof values);

@@ -2,7 +2,7 @@
 
 namespace vehd {
 
-/// Floating-point operations per second that so many threads reach together in the product of matrices that fit into
+/// Floating-point operations per second that n_threads threads reach together in products of matrices that fit into
 /// their caches: the peak rate of the machine in double precision. Takes a quarter of a second.
 double measured_peak(int n_threads);
 

@@ -13,7 +13,7 @@ void keep_freed_memory() {
   constexpr int kNever = 1 << 30;
   mallopt(M_MMAP_THRESHOLD, kNever);
   mallopt(M_TRIM_THRESHOLD, kNever);
-  // What threads have beside the main one comes in pieces of 64 MiB, which go when they are empty but for this.
+  // Other threads allocate from heaps of 64 MiB, which would be unmapped when empty; this padding keeps them.
   constexpr int kKept = 16 << 20;
   mallopt(M_TOP_PAD, kKept);
 }
@@ -26,7 +26,7 @@ std::int64_t peak_memory_bytes() {
 
 namespace {
 
-/// A line "KEY:  1234 kB" of /proc/self/status, in bytes; 0 where there is none.
+/// A line "KEY:  1234 kB" of /proc/self/status, in bytes; 0 if there is none.
 std::int64_t status_bytes(const std::string& key) {
   std::ifstream file("/proc/self/status");
   for (std::string line; std::getline(file, line);) {
@@ -38,8 +38,8 @@ std::int64_t status_bytes(const std::string& key) {
   return 0;
 }
 
-/// Lets the largest resident size start again from the present one.
-bool forget_peak() {
+/// Resets the peak resident size to the present size; false if the system refuses.
+bool reset_peak() {
   std::ofstream file("/proc/self/clear_refs");
   file << "5" << std::flush;
   return file.good();
@@ -47,7 +47,7 @@ bool forget_peak() {
 
 }  // namespace
 
-/// Every open part has seen the peak since the last look.
+/// The peak since the last call counts for every open part.
 void MemoryMeter::look() {
   const std::int64_t peak = status_bytes("VmHWM");
   for (OpenPart& part : open_) part.peak = std::max(part.peak, peak);
@@ -57,7 +57,7 @@ void MemoryMeter::begin(const std::string& part) {
   if (!active_) return;
   look();
   malloc_trim(0);
-  if (!forget_peak()) return stop();
+  if (!reset_peak()) return stop();
   const std::int64_t held = status_bytes("VmRSS");
   open_.push_back({part, held, held});
 }

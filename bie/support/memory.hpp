@@ -14,22 +14,22 @@ namespace vehd {
 /// megabytes; handing them back to the kernel costs a page fault for every 4 KiB, about a third of an assembly.
 void keep_freed_memory();
 
-/// Most memory that this process has held.
+/// Peak resident memory of this process.
 std::int64_t peak_memory_bytes();
 
-/// Most memory that each part of the work takes beyond what the process held when the part began, to a page, from the
-/// resident size that Linux keeps. Costs milliseconds a part, so a metered run should not be timed.
+/// Peak memory of each part of the work beyond what the process held when the part began, to a page, from the resident
+/// size that Linux records. Costs milliseconds per part, so a metered run should not be timed.
 class MemoryMeter : public PartObserver {
  public:
-  /// Until then nothing is metered. Freed memory goes back to the system at each begin of a part.
+  /// Starts metering. Freed memory is returned to the system at the beginning of each part.
   void start() { active_ = true; }
-  /// Nothing is metered from now on.
+  /// Stops metering.
   void stop() { active_ = false; }
 
   void begin(const std::string& part) override;
   void end() override;
 
-  /// Bytes of each part so far; empty where the system does not say.
+  /// Bytes of each part so far; empty if the system does not report them.
   [[nodiscard]] const std::map<std::string, std::int64_t>& peaks() const { return peaks_; }
 
  private:

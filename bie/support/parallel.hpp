@@ -12,8 +12,8 @@
 
 namespace vehd {
 
-/// Calls body(i) for i = 0 … count − 1, on all threads if `worthwhile`, in an order that no result may depend on. Even
-/// a team of one makes system calls, so loops that are not worth it stay out of OpenMP altogether.
+/// Calls body(i) for i = 0 … count − 1, on all threads if `worthwhile`; no result may depend on the order. Even a team
+/// of one thread makes system calls, so other loops bypass OpenMP.
 template <typename Body>
 void for_each_index(Index count, bool worthwhile, const Body& body) {
   if (!worthwhile) {
@@ -24,11 +24,11 @@ void for_each_index(Index count, bool worthwhile, const Body& body) {
   for (Index i = 0; i < count; ++i) body(i);
 }
 
-/// Exceptions of calls on several threads.
+/// Exceptions thrown by calls on several threads.
 class Exceptions {
  public:
   explicit Exceptions(Index count) : of_each_(static_cast<std::size_t>(count)) {}
-  /// Calls body, as number i.
+  /// Calls body and keeps its exception as number i.
   template <typename Body>
   void keep(Index i, const Body& body) {
     try {
@@ -48,7 +48,7 @@ class Exceptions {
   std::vector<std::exception_ptr> of_each_;
 };
 
-/// Calls body(of_each) with instruments of their own for so many tasks that it does beside each other.
+/// Calls body(of_each) with separate instruments for `count` tasks that body runs concurrently, and adds their counts.
 template <typename Body>
 void count_side_by_side(Index count, Instruments& instruments, const Body& body) {
   std::deque<Instruments> of_each(static_cast<std::size_t>(count));
@@ -58,14 +58,14 @@ void count_side_by_side(Index count, Instruments& instruments, const Body& body)
   instruments.take_side_by_side(of_each, elapsed.count());
 }
 
-/// Are there so many members of a group that threads share them? With fewer they share what is done for each.
+/// Are there enough members to distribute them over threads? With fewer, the work on each one is parallel instead.
 inline bool are_many(Index count) {
   constexpr Index kFew = 8;
   return count > kFew;
 }
 
-/// Calls body(i) for the members i = 0 … count − 1 of a group, on all threads if there are many, in an order that no
-/// result may depend on. If some throw, the exception of the first of them is rethrown after all have ended.
+/// Calls body(i) for the members i = 0 … count − 1 of a group, on all threads if there are many; no result may depend
+/// on the order. In parallel, the exception of the lowest member is rethrown after all have ended.
 template <typename Body>
 void for_each_member(Index count, const Body& body) {
   if (!are_many(count)) {

@@ -81,7 +81,7 @@ void Progress::draw() {
 
 std::string duration_text(double seconds) {
   if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
-  // Also catches what no integer holds.
+  // Also covers NaN and values that no integer holds.
   if (!(seconds < 1e7)) return "long";
   const auto whole = static_cast<long>(std::lround(seconds));
   if (whole < 60) return fmt::format("{} s", whole);

@@ -5,10 +5,10 @@
 
 namespace vehd {
 
-/// How far some work is, on standard error: a bar redrawn in place on a terminal, otherwise a plain line now and then.
+/// Progress of some work on standard error: a bar redrawn in place on a terminal, otherwise a line every 5 s.
 class Progress {
  public:
-  /// How it is shown.
+  /// Form of the display.
   enum class Style { bar, lines, none };
   /// Bar on a terminal, lines elsewhere.
   static Style suitable_style();
@@ -18,14 +18,14 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// @param share  of the work that is done, 0 ... 1
-  /// @param text   beside it, one line
+  /// @param share  fraction of the work that is done, 0 ... 1
+  /// @param text   shown beside it, one line
   void update(double share, const std::string& text);
-  /// Update at the beginning of a piece of work that may take long: a bar shows it at once.
+  /// Update at the beginning of a part of the work that may take long: a bar shows it at once.
   void begin(double share, const std::string& text);
-  /// Draws the last state whatever the interval, and leaves the line.
+  /// Draws the last state at once and ends the line.
   void finish();
-  /// Takes the line away, so that results can be printed in its place.
+  /// Erases the bar, so that results can be printed in its place.
   void clear();
 
  private:

@@ -11,10 +11,10 @@
 
 namespace vehd {
 
-/// Calls body(i, instruments) for a few tasks i = 0 … count − 1 that take about equally long: if `worthwhile` as many
-/// beside each other as there are threads, each on a thread of its own, and one that is left over on all of them; in an
-/// order that no result may depend on. If some throw, the exception of the first of them is rethrown after all have
-/// ended, in any case.
+/// Calls body(i, instruments) for a few tasks i = 0 … count − 1 of about equal cost. If `worthwhile`, as many run
+/// concurrently as there are threads, each on one thread; a single task that is left over uses all threads. No result
+/// may depend on the order. If some throw, the exception of the lowest i is rethrown after all have ended, whether they
+/// run concurrently or not.
 template <typename Body>
 void for_each_side_by_side(Index count, bool worthwhile, Instruments& instruments, const Body& body) {
   Exceptions exceptions(count);

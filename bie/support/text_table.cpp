@@ -7,7 +7,7 @@
 namespace vehd {
 namespace {
 
-/// A bar would end the cell.
+/// An unescaped bar would end the cell.
 std::string escaped(const std::string& cell) {
   std::string result;
   for (const char letter : cell) {

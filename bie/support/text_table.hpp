@@ -9,7 +9,7 @@ namespace vehd {
 /// Cells row by row, UTF-8; every row has the same number of cells.
 using TextTable = std::vector<std::vector<std::string>>;
 
-/// Columns of a text on a terminal: one for each character but combining marks (U+0300 ... U+036F).
+/// Columns that a text takes on a terminal: one per character, none for combining marks (U+0300 ... U+036F).
 std::size_t display_width(const std::string& text);
 
 /// Lines of aligned columns, two spaces apart; the last column is not padded.

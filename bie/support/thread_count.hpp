@@ -4,10 +4,10 @@
 
 namespace vehd {
 
-/// That a user may request: OpenMP ends the process where it cannot start one.
+/// Largest number of threads that a user may request: OpenMP ends the process if it cannot start one.
 constexpr int most_threads = 1024;
 
-/// So many threads in its scope.
+/// Sets the number of threads for the scope of this object.
 class ThreadCount {
  public:
   explicit ThreadCount(int count) { omp_set_num_threads(count); }

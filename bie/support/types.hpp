@@ -13,11 +13,11 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 /// Row-major matrix of doubles.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-/// A point or a vector of space.
+/// A point or a vector in space.
 using Vector3 = Eigen::Vector3d;
-/// A tensor or a frame of space.
+/// A tensor or a frame in space.
 using Matrix3 = Eigen::Matrix3d;
-/// Signed size of matrices.
+/// Signed type of sizes and indices of matrices.
 using Index = Eigen::Index;
 
 }  // namespace vehd

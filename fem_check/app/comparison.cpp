@@ -23,7 +23,7 @@ constexpr double slowest_order = 1.0;
 constexpr double largest_change_with_an_order = 0.1;
 /// Highest assumed order of convergence of boundary integrals in the degree: doubling the degree leaves a sixteenth of
 /// the error.
-constexpr double slowest_degree_order = 4.0;
+constexpr double highest_degree_order = 4.0;
 
 /// Error of the last level over the change to it, if errors are a power of the mesh size N^(−1/3); at least 1, since a
 /// high order is inferred from two changes only.
@@ -65,7 +65,7 @@ double degree_tail(double change, const Degrees& degrees) {
       static_cast<double>(std::max(degrees.judged, degrees.other)) / std::min(degrees.judged, degrees.other);
   double of_lower = error_of_slow_decay(change, growth) / change;
   if (degrees.decay && *degrees.decay < 1.0) of_lower = std::min(of_lower, 1.0 / (1.0 - *degrees.decay));
-  of_lower = std::max(of_lower, 1.0 / (1.0 - std::pow(growth, -slowest_degree_order)));
+  of_lower = std::max(of_lower, 1.0 / (1.0 - std::pow(growth, -highest_degree_order)));
   return std::max(1.0, degrees.judged < degrees.other ? of_lower : of_lower - 1.0);
 }
 

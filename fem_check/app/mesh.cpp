@@ -50,7 +50,7 @@ void refine(meshes::BoxMeshOptions& options, double factor) {
 
 MeshResult mesh_beside_wall(const MeshTask& task, const meshes::FrozenShape& shape, const meshes::Wall& wall,
                             double factor) {
-  if (task.family == "tet") throw InputError("--family tet: knows no wall; accepted beside one: hex");
+  if (task.family == "tet") throw InputError("--family tet: does not mesh a wall; accepted beside one: hex");
   meshes::BoxMeshOptions options = wall_mesh_options({}, shape, wall);
   refine(options, factor);
   const meshes::BoxMesh exact = meshes::make_mesh_beside_wall(shape, wall, options);
@@ -58,7 +58,7 @@ MeshResult mesh_beside_wall(const MeshTask& task, const meshes::FrozenShape& sha
 }
 
 MeshResult mesh_of_two(const MeshTask& task, const std::vector<meshes::FrozenShape>& shapes, double factor) {
-  if (task.family == "tet") throw InputError("--family tet: knows one vesicle; accepted for two: hex");
+  if (task.family == "tet") throw InputError("--family tet: meshes one vesicle; accepted for two: hex");
   const std::array pair{shapes[0], shapes[1]};
   meshes::BoxMeshOptions options = two_vesicle_options({}, pair);
   refine(options, factor);

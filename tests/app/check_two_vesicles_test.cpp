@@ -177,10 +177,10 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_checked_is_refused_in_one_line) {
   refused({"mesh", scene, "-o", directory / "mesh.msh"}, "scene.toml: has 3 vesicles; vehd mesh accepts one or two");
   write_text(scene, start);
   refused({"mesh", scene, "--family", "tet", "-o", directory / "mesh.msh"},
-          "--family tet: knows one vesicle; accepted for two: hex");
+          "--family tet: meshes one vesicle; accepted for two: hex");
   refused({"check", scene, "--quick", "--set", "electric.permittivity=1", "--set", "electric.displacement_current=true",
            "--set", "electric.initial_Vm=zero"},
-          "has displacement currents, which the finite-element check knows about one vesicle alone");
+          "has displacement currents, which the finite-element check supports for one vesicle only");
 }
 
 BOOST_AUTO_TEST_CASE(mesh_of_two_is_written_with_its_quality) {

@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(three_parameters_need_at_most_sixty_evaluations) {
     vehd::NormalNumbers normal(static_cast<std::uint64_t>(seed));
     for (double& value : problem.data) value += 0.02 * normal();
     int n_told = 0;
-    problem.tell = [&](int n_evaluations, double) { n_told = n_evaluations; };
+    problem.report_progress = [&](int n_evaluations, double) { n_told = n_evaluations; };
     const vehd::Minimum minimum = vehd::minimum_of(problem);
     BOOST_TEST(minimum.converged);
     BOOST_TEST(minimum.n_evaluations <= 60);

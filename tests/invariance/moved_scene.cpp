@@ -23,7 +23,7 @@ class UniformDrift : public ExplicitEffect {
     return Vector3(g.x * velocity_.x(), g.y * velocity_.y(), g.z * velocity_.z()) == velocity_;
   }
   [[nodiscard]] bool is_axisymmetric() const override { return velocity_.head<2>().isZero(0.0); }
-  [[nodiscard]] bool is_same_everywhere() const override { return true; }
+  [[nodiscard]] bool is_translation_invariant() const override { return true; }
   [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3& rotation) const override {
     return uniform_drift(rotation * velocity_);
   }

@@ -46,11 +46,11 @@ BOOST_AUTO_TEST_CASE(who_is_where) {
   const Matrix shape = ellipsoid(10, {1.0, 1.2, 1.5});
   const Matrix small = 0.2 * shape;
   BOOST_TEST((arrangement_of(shape, translated(shape, {2.001, 0.0, 0.0})) == Arrangement::apart));
-  BOOST_TEST((arrangement_of(shape, translated(shape, {1.999, 0.0, 0.0})) == Arrangement::they_meet));
-  BOOST_TEST((arrangement_of(shape, shape) == Arrangement::they_meet));
+  BOOST_TEST((arrangement_of(shape, translated(shape, {1.999, 0.0, 0.0})) == Arrangement::intersecting));
+  BOOST_TEST((arrangement_of(shape, shape) == Arrangement::intersecting));
   BOOST_TEST((arrangement_of(shape, translated(small, {0.2, 0.1, 0.9})) == Arrangement::second_is_inside));
   BOOST_TEST((arrangement_of(translated(small, {0.2, 0.1, 0.9}), shape) == Arrangement::first_is_inside));
-  BOOST_TEST((arrangement_of(shape, translated(small, {0.9, 0.0, 0.0})) == Arrangement::they_meet));
+  BOOST_TEST((arrangement_of(shape, translated(small, {0.9, 0.0, 0.0})) == Arrangement::intersecting));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -91,6 +91,20 @@ class Bits(InFolder):
         with self.assertRaisesRegex(vehd.InputError, 'scene:13: "flow.rate" is 2'):
             vehd.Simulation(other, self.folder / "run", resume=True)
 
+    def test_a_run_goes_on_in_another_flow_as_that_of_the_program_does(self):
+        first = self.folder / "first"
+        vehd.Simulation(vehd.Scene.from_text(SHEARED), first).run()
+        after = self.write(SHEARED.replace("rate = 1.0", "rate = 2.0").replace("end_time = 0.05", "end_time = 0.08"),
+                           "after.toml")
+        self.run_program("run", after, "--from", first, "-o", self.folder / "program", "--no-plot", "--quiet")
+        run = vehd.Simulation(after, self.folder / "python", from_run=first).run()
+        self.assertTrue(run.completed)
+        self.assertGreater(run.history["time"][0], 0.0)
+        self.assertEqual((self.folder / "python/history.csv").read_bytes(),
+                         (self.folder / "program/history.csv").read_bytes())
+        with self.assertRaisesRegex(vehd.InputError, "no directory"):
+            vehd.Simulation(after, from_run=first)
+
     def test_a_directory_is_for_one_at_a_time(self):
         scene = vehd.Scene.from_text(SHEARED)
         run = vehd.Simulation(scene, self.folder / "run")

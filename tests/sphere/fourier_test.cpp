@@ -84,8 +84,9 @@ struct Parts {
 };
 
 /// A block of amplitudes that were found.
-double found_amplitude(const FourierSums& method, const FoundAmplitudes& found, int part, int m, bool sine, Index i) {
-  return found.data[FoundAmplitudes::number(part, m, sine) * found.block + i * method.row_length() + m / 2];
+double found_amplitude(const FourierSums& method, const AnalysedAmplitudes& found, int part, int m, bool sine,
+                       Index i) {
+  return found.data[AnalysedAmplitudes::number(part, m, sine) * found.block + i * method.row_length() + m / 2];
 }
 
 void check_hemispheres(const Case& c, bool minus_sines) {
@@ -102,8 +103,8 @@ void check_hemispheres(const Case& c, bool minus_sines) {
   BOOST_TEST((values - expected).cwiseAbs().maxCoeff() < kSynthesis, c.n_phi);
 
   const Index n_half = (c.rows + 1) / 2, block = n_half * method.row_length() + 3;
-  std::vector<double> data(static_cast<std::size_t>(FoundAmplitudes::kBlocks * block), 7.0);
-  const FoundAmplitudes found{data.data(), block};
+  std::vector<double> data(static_cast<std::size_t>(AnalysedAmplitudes::kBlocks * block), 7.0);
+  const AnalysedAmplitudes found{data.data(), block};
   method.analyze(c.rows, values.data(), found);
   double error = 0.0;
   for (Index i = 0; i < n_half; ++i) {

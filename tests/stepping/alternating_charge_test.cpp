@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(no_step_and_no_moment_leaves_more_than_its_share_of_the_tol
       const double from = evolution.state().time, start = north(evolution.evaluation());
       evolution.step({{.every = 0.37}, kEnd});
       of_steps = std::max(of_steps, share(north(evolution.evaluation()), from, start, evolution.state().time));
-      for (const Evolution::Moment& moment : evolution.passed()) {
+      for (const Evolution::DenseOutput& moment : evolution.dense_output()) {
         of_moments = std::max(of_moments, share(north(moment.evaluation), from, start, moment.state.time));
         ++n_moments;
       }

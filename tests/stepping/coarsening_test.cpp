@@ -27,7 +27,7 @@ class Unsolvable : public ExplicitEffect {
   }
   [[nodiscard]] bool is_invariant_under(const Reflection&) const override { return true; }
   [[nodiscard]] bool is_axisymmetric() const override { return true; }
-  [[nodiscard]] bool is_same_everywhere() const override { return true; }
+  [[nodiscard]] bool is_translation_invariant() const override { return true; }
   [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3&) const override {
     return std::make_shared<Unsolvable>(condition_);
   }

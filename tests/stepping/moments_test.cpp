@@ -32,7 +32,7 @@ EvolutionSetup setup_of(const Model& model, const Matrix& position, int time_ord
 
 struct Run {
   std::vector<double> step_times;
-  std::vector<Evolution::Moment> moments;
+  std::vector<Evolution::DenseOutput> moments;
   State end;
 };
 
@@ -41,7 +41,7 @@ Run rest_of(Evolution& evolution, const SnapshotTimes& snapshots) {
   while (evolution.state().time < kEnd) {
     evolution.step({snapshots, kEnd});
     run.step_times.push_back(evolution.state().time);
-    run.moments.insert(run.moments.end(), evolution.passed().begin(), evolution.passed().end());
+    run.moments.insert(run.moments.end(), evolution.dense_output().begin(), evolution.dense_output().end());
   }
   run.end = evolution.state();
   return run;
@@ -56,7 +56,8 @@ Run run_of(const EvolutionSetup& setup, const Matrix& position, const SnapshotTi
 
 Matrix start_shape() { return prolate(20); }
 
-void require_same_bits(const std::vector<Evolution::Moment>& found, const std::vector<Evolution::Moment>& expected) {
+void require_same_bits(const std::vector<Evolution::DenseOutput>& found,
+                       const std::vector<Evolution::DenseOutput>& expected) {
   BOOST_TEST_REQUIRE(expected.size() > 10U);
   BOOST_TEST_REQUIRE(found.size() == expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -157,7 +158,7 @@ BOOST_AUTO_TEST_CASE(moments_after_a_resumption_are_the_same_to_the_bit) {
   Instruments instruments;
   Evolution whole(setup, {StartMembrane{position}}, instruments);
   whole.evaluate_start();
-  while (whole.passed().empty()) whole.step({snapshots, kEnd});
+  while (whole.dense_output().empty()) whole.step({snapshots, kEnd});
   Evolution resumed(setup, whole.state(), instruments);
   resumed.evaluate_start();
   const Run expected = rest_of(whole, snapshots);
@@ -174,7 +175,7 @@ BOOST_AUTO_TEST_CASE(moments_are_the_same_to_the_bit_however_many_threads_have_t
     const ThreadCount count(threads);
     return run_of(setup, position, snapshots).moments;
   };
-  const std::vector<Evolution::Moment> alone = moments_with(1);
+  const std::vector<Evolution::DenseOutput> alone = moments_with(1);
   for (const int threads : {2, 3}) require_same_bits(moments_with(threads), alone);
 }
 
@@ -188,7 +189,7 @@ BOOST_AUTO_TEST_CASE(a_snapshot_at_the_end_of_a_step_is_taken_there) {
   int n_moments = 0, n_ends = 0;
   while (evolution.state().time < 1.0) {
     const StepAttempt step = evolution.step({{.times = {0.21, 0.5, 0.83}}, 1.0});
-    n_moments += static_cast<int>(evolution.passed().size());
+    n_moments += static_cast<int>(evolution.dense_output().size());
     if (evolution.state().time == 0.5) BOOST_TEST(step.at_snapshot);
     if (step.at_snapshot) ++n_ends;
   }

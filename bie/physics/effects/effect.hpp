@@ -55,7 +55,7 @@ class Effect {
   /// Is it invariant under every rotation about z? Unlike an axisymmetric effect it can swirl.
   [[nodiscard]] virtual bool is_invariant_under_rotations() const { return is_axisymmetric(); }
   /// Is it invariant under translations?
-  [[nodiscard]] virtual bool is_same_everywhere() const { return true; }
+  [[nodiscard]] virtual bool is_translation_invariant() const { return true; }
   /// Candidates for its axis of symmetry; empty if every axis is one.
   [[nodiscard]] virtual std::vector<Vector3> axis_candidates() const { return {}; }
   /// The next time after `time` at which a step should end because the effect changes abruptly.
@@ -73,7 +73,7 @@ class ExplicitEffect : public Effect {
   [[nodiscard]] virtual bool is_invariant_under(const Reflection& g) const = 0;
   [[nodiscard]] int potential_sign(const Reflection& g) const final { return is_invariant_under(g) ? 1 : 0; }
   [[nodiscard]] bool is_axisymmetric() const override = 0;
-  [[nodiscard]] bool is_same_everywhere() const override { return false; }
+  [[nodiscard]] bool is_translation_invariant() const override { return false; }
   /// Do both effects act equally on any membrane? By default an effect equals only itself.
   [[nodiscard]] virtual bool is_same_as(const ExplicitEffect& other) const { return this == &other; }
   /// This effect rotated by R.

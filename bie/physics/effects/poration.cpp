@@ -38,7 +38,7 @@ PorationReaction::Slope MembranePorosity::implicit_step(double known, double dt,
   return {(known + share * beta.value) / (1.0 + share), share / (1.0 + share) * beta.slope};
 }
 
-double MembranePorosity::limited(double from, double to) const {
+double MembranePorosity::damped_potential(double from, double to) const {
   // Half of the width over which the membrane opens.
   const double width = 0.5 * p_.potential / std::max(p_.steepness, 1.0);
   return std::clamp(to, from - width, from + width);
@@ -100,7 +100,7 @@ PorationReaction::Slope PoreDensity::implicit_step(double known, double dt, doub
   return {known + made - lost, by_potential * (made - (1.0 - p_.exponent) * lost) / (1.0 + made)};
 }
 
-double PoreDensity::limited(double from, double to) const {
+double PoreDensity::damped_potential(double from, double to) const {
   // An increase of |V| by this raises the creation rate of pores by the factor e.
   const double width = 0.5 * p_.potential * p_.potential / std::max(std::abs(from), p_.potential);
   const double change = to - from;

@@ -36,7 +36,7 @@ class PorationReaction : public Effect {
   /// @param dt  > 0, of any size
   [[nodiscard]] virtual Slope implicit_step(double known, double dt, double potential) const = 0;
   /// Potential between `from` and `to` up to which the slopes at `from` are useful, for Newton's method.
-  [[nodiscard]] virtual double limited(double from, double to) const = 0;
+  [[nodiscard]] virtual double damped_potential(double from, double to) const = 0;
   /// Value in the history: the porosity, or the density of pores.
   [[nodiscard]] virtual double measure(double s) const = 0;
 };
@@ -63,7 +63,7 @@ class MembranePorosity : public PorationReaction {
   [[nodiscard]] Slope conductance(double porosity) const override;
   [[nodiscard]] double rate(double porosity, double potential) const override;
   [[nodiscard]] Slope implicit_step(double known, double dt, double potential) const override;
-  [[nodiscard]] double limited(double from, double to) const override;
+  [[nodiscard]] double damped_potential(double from, double to) const override;
   [[nodiscard]] double measure(double porosity) const override { return porosity; }
   [[nodiscard]] EffectDescription description() const override;
 
@@ -105,7 +105,7 @@ class PoreDensity : public PorationReaction {
   [[nodiscard]] Slope conductance(double s) const override;
   [[nodiscard]] double rate(double s, double potential) const override;
   [[nodiscard]] Slope implicit_step(double known, double dt, double potential) const override;
-  [[nodiscard]] double limited(double from, double to) const override;
+  [[nodiscard]] double damped_potential(double from, double to) const override;
   [[nodiscard]] double measure(double s) const override;
   [[nodiscard]] EffectDescription description() const override;
 

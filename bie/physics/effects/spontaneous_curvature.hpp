@@ -27,7 +27,7 @@ class SpontaneousCurvatureEffect : public ExplicitEffect {
   void add(const EffectInput& input, Forcing& forcing) const override;
   [[nodiscard]] bool is_invariant_under(const Reflection&) const override { return true; }
   [[nodiscard]] bool is_axisymmetric() const override { return true; }
-  [[nodiscard]] bool is_same_everywhere() const override { return true; }
+  [[nodiscard]] bool is_translation_invariant() const override { return true; }
   [[nodiscard]] bool is_same_as(const ExplicitEffect& other) const override { return has_parameters_of(*this, other); }
   [[nodiscard]] double spontaneous_curvature() const override { return parameters_.curvature; }
   [[nodiscard]] std::shared_ptr<const ExplicitEffect> rotated(const Matrix3&) const override {

@@ -89,7 +89,7 @@ nlohmann::json verdict_data(const HistoryTable& history, const Scene& scene, con
                       {"state", state_of(verdict, has_ended)},
                       {"limits", nlohmann::json::array()},
                       {"warnings", nlohmann::json::array()}};
-  // Runs of earlier versions are without.
+  // Runs of earlier versions have no warnings.
   if (has_ended && summary.contains("warnings")) {
     for (const auto& warning : summary["warnings"]) json["warnings"].push_back(warning.at("text"));
   }
@@ -100,7 +100,7 @@ nlohmann::json verdict_data(const HistoryTable& history, const Scene& scene, con
   if (history.has("separation")) {
     double least = INFINITY;
     for (const double value : history.column("separation")) least = value < least || std::isnan(value) ? value : least;
-    // Infinite where no part of the membrane faces another.
+    // Infinite if no part of the membrane faces another.
     if (!std::isinf(least)) json["limits"].push_back(limit_row("separation", least, least_trusted_separation, true));
   }
   return json;

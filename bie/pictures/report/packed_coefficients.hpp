@@ -10,12 +10,12 @@
 
 namespace vehd {
 
-/// Harmonic coefficients of one field at many times, as the page reads them: every number is a 16-bit integer, little
-/// endian, in parts of 32767 of the largest coefficient of its component and time. A vesicle of degree 16 so takes 1.7
-/// kB a time for its position, where a surface fit to look at would take 50.
+/// Harmonic coefficients of one field at many times, as the page reads them: 16-bit integers, little endian, in units
+/// of 1/32767 of the largest coefficient of the component and time. The position of a vesicle of degree 16 takes 1.7 kB
+/// per time, whereas a surface fine enough for display would take 50.
 class PackedCoefficients {
  public:
-  /// Appends a time.
+  /// Appends the coefficients of one time.
   /// @param coefficients  [n_coefficients x components]
   void add(const Matrix& coefficients);
   /// {"scale": [times][components], "data": base64 of times, components, coefficients}
@@ -29,7 +29,7 @@ class PackedCoefficients {
 /// Bytes that coefficients of this degree take in a page, per component and time.
 std::size_t packed_bytes(int order);
 
-/// The value to six significant digits: enough for a picture. JSON null if it is no number.
+/// The value to six significant digits, enough for a picture; JSON null if it is not finite.
 nlohmann::json rounded_for_page(double value);
 nlohmann::json rounded_for_page(const std::vector<double>& values);
 

@@ -32,17 +32,17 @@ std::string with_letter_as(const std::string& text, char letter, std::string_vie
   return result;
 }
 
-/// Text between tags.
+/// Escapes text between tags.
 std::string html_text(const std::string& text) {
   return with_letter_as(with_letter_as(text, '&', "&amp;"), '<', "&lt;");
 }
 
-/// JSON within a script element, which the first "</" would end.
+/// Escapes JSON within a script element, which the first "</" would end.
 std::string json_within_page(const nlohmann::json& json) {
   return with_letter_as(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), '<', "\\u003c");
 }
 
-/// The page with what stands for each place; what is put in is not searched again.
+/// The page with its placeholders replaced; inserted text is not searched again.
 std::string filled(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& places) {
   std::string result;
   std::size_t position = 0;
@@ -70,7 +70,7 @@ nlohmann::json palette_of(const ColourMap& colours) {
   return palette;
 }
 
-/// With its unit as in print.
+/// The time reached, with its unit as printed.
 std::string reached_of(const HistoryTable& history) {
   const std::string number = fmt::format("{:.6g}", history.column("time").back()), unit = history.unit("time");
   return unit.empty() ? number : number + " " + printed_unit(unit);

@@ -9,7 +9,7 @@
 
 namespace vehd {
 
-/// Which run is reported, and where to.
+/// The run to report, and the destination.
 struct ReportTask {
   RunPaths paths;
   std::filesystem::path output;
@@ -24,7 +24,7 @@ struct ReportSize {
   std::vector<std::string> notes{};  ///< see ReadingNotes
 };
 
-/// Writes one HTML file that needs nothing else: verdict, vesicle in 3D, shapes, histories, scene.
+/// Writes one self-contained HTML file: verdict, vesicle in 3D, shapes, histories, scene.
 /// @throws InputError if the run cannot be read, OutputError if the file cannot be written
 ReportSize write_report(const ReportTask& task);
 

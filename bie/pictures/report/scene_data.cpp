@@ -59,7 +59,7 @@ nlohmann::json groups_data(const Scene& scene) {
                       {"meaning", group.meaning}});
     }
   } catch (const InputError&) {
-    // They are those of the start, which a run that began from another one shares with that file alone.
+    // The groups are those of the initial shape, which only the missing file contains.
     return nlohmann::json::array();
   }
   return json;

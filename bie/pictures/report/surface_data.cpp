@@ -15,9 +15,9 @@ namespace vehd {
 namespace {
 
 constexpr std::size_t most_surface_bytes = 8'000'000;
-/// Extremes of a surface are read off a grid of this degree or of twice its own.
+/// Extremes of a surface are taken on a grid of this degree or twice its own, whichever is higher.
 constexpr int least_extreme_grid = 31;
-/// What the page can colour the vesicle by.
+/// Fields by which the page can colour the vesicle.
 constexpr std::array page_fields = {"V_m", "q", "tension"};
 
 std::string dataset_of(const char* field) { return std::string(shape_field(field).datasets[0]); }
@@ -36,7 +36,7 @@ struct FieldOverTime {
     coefficients.add(of_time);
     const Vector values = transform.synthesize(of_time).col(0);
     FieldReach reach = reach_of(values, weights);
-    // The poles, which are no points of the grid, often have the extremes.
+    // The poles are not points of the grid, but the extremes are often there.
     const Matrix all = with_poles(values, of_time);
     reach.least = all.minCoeff();
     reach.most = all.maxCoeff();
@@ -115,7 +115,7 @@ nlohmann::json surface_data(const RunReader& run, const std::vector<std::size_t>
   json["unit"] = printed_unit(length.symbol);
   json["fields"] = nlohmann::json::array();
   for (std::size_t i = 0; i < page_fields.size(); ++i) {
-    // A field of some times alone has no place on a slider through all of them.
+    // The slider covers all snapshots, so it needs fields that all of them have.
     if (fields[i].reaches.size() != snapshots.size()) continue;
     json["fields"].push_back(field_data(shape_field(page_fields[i]), fields[i], printed_unit(field_units[i].symbol)));
   }

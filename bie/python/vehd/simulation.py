@@ -26,6 +26,7 @@ class Simulation:
     directory: for the files of a run as of `vehd run -o`, up to date after every step; `--resume` of the program and
         `resume=True` here continue it. None: everything stays in memory.
     resume: continue the run in the directory if there is one.
+    from_run: directory of a run that the new one continues with another field, waveform or flow, as `--from` does.
 
     SceneError, InputError, OutputError, ConvergenceError: with the messages of the program.
 
@@ -34,13 +35,15 @@ class Simulation:
     """
 
     def __init__(self, scene: Union[Scene, str, "os.PathLike[str]", Mapping[str, Any]],
-                 directory: Optional[Union[str, "os.PathLike[str]"]] = None, *, resume: bool = False):
+                 directory: Optional[Union[str, "os.PathLike[str]"]] = None, *, resume: bool = False,
+                 from_run: Optional[Union[str, "os.PathLike[str]"]] = None):
         if isinstance(scene, Mapping):
             scene = Scene.from_dict(scene)
         elif not isinstance(scene, Scene):
             scene = Scene(scene)
         self.scene = scene
-        self._core = _core.SceneRun(scene._core, None if directory is None else os.fspath(directory), resume)
+        self._core = _core.SceneRun(scene._core, None if directory is None else os.fspath(directory), resume,
+                                    "" if from_run is None else os.fspath(from_run))
 
     def step(self) -> bool:
         """Takes one accepted step. Returns False if the end of the scene is reached already.

@@ -15,10 +15,10 @@
 
 #include "bie/runs/session.hpp"
 #include "bie/runs/sweep/claim.hpp"
-#include "bie/support/crew.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 #include "bie/support/thread_count.hpp"
+#include "bie/support/worker_pool.hpp"
 
 namespace vehd {
 namespace {
@@ -105,7 +105,7 @@ class Workers {
         interruption_(interruption),
         memory_(boost::interprocess::anonymous_shared_memory(sizeof(WorkerBoard) * n_workers())),
         boards_(static_cast<WorkerBoard*>(memory_.get_address()), n_workers()),
-        crew_([this](int number) { return work(number); }) {
+        pool_([this](int number) { return work(number); }) {
     std::uninitialized_value_construct(boards_.begin(), boards_.end());
     std::set<std::string> names;
     for (const SweepRun& run : task.runs) {
@@ -115,11 +115,11 @@ class Workers {
   }
 
   std::string run() {
-    for (int i = 0; i < task_.n_workers; ++i) crew_.start(i);
-    while (crew_.n_working() > 0) {
-      while (const auto end = crew_.next_end()) answer(*end);
+    for (int i = 0; i < task_.n_workers; ++i) pool_.start(i);
+    while (pool_.n_working() > 0) {
+      while (const auto end = pool_.next_end()) handle_end(*end);
       if (!problem_ && interruption_.requested()) stop("a signal came");
-      tell();
+      report_progress();
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return problem_.value_or("");
@@ -134,7 +134,7 @@ class Workers {
     return static_cast<int>(work_at_sweep(task_, interruption_, boards_[static_cast<std::size_t>(number)]));
   }
 
-  void answer(const Crew::End& end) {
+  void handle_end(const WorkerPool::End& end) {
     WorkerBoard& board = boards_[static_cast<std::size_t>(end.number)];
     board.share = 0.0;
     const std::size_t run = board.run.exchange(0);
@@ -150,7 +150,7 @@ class Workers {
       stop("a signal came");
     }
     // Any other interruption was meant for this worker only.
-    if (!problem_) crew_.start(end.number);
+    if (!problem_) pool_.start(end.number);
   }
 
   /// Counts a worker that was ended by a signal. If another worker has resumed its run meanwhile, the result of that
@@ -170,11 +170,11 @@ class Workers {
 
   void stop(const std::string& problem) {
     if (!problem_) problem_ = problem;
-    crew_.stop();
+    pool_.stop();
   }
 
-  void tell() const {
-    if (!task_.tell) return;
+  void report_progress() const {
+    if (!task_.report_progress) return;
     std::int64_t n_finished = 0;
     double share = 0.0;
     for (const WorkerBoard& board : boards_) {
@@ -182,14 +182,14 @@ class Workers {
       share += board.share;
     }
     share += static_cast<double>(n_finished);
-    task_.tell(n_finished, n_runs_, n_runs_ == 0 ? 1.0 : share / static_cast<double>(n_runs_));
+    task_.report_progress(n_finished, n_runs_, n_runs_ == 0 ? 1.0 : share / static_cast<double>(n_runs_));
   }
 
   const SweepTask& task_;
   Interruption& interruption_;
   boost::interprocess::mapped_region memory_;
   std::span<WorkerBoard> boards_;
-  Crew crew_;
+  WorkerPool pool_;
   std::optional<std::string> problem_;  ///< why workers end early
   std::map<std::size_t, int> n_kills_;  ///< for each run
   std::int64_t n_runs_ = 0;             ///< runs without a result at the start

@@ -20,7 +20,7 @@ struct SweepTask {
   int n_workers = 1;
   int n_threads = 1;  ///< threads of each worker
   /// Called often; n_runs counts the runs without a result at the start.
-  std::function<void(std::int64_t n_finished, std::int64_t n_runs, double share)> tell{};
+  std::function<void(std::int64_t n_finished, std::int64_t n_runs, double share)> report_progress{};
 };
 
 /// Computes a sweep with processes of this machine until they find no run that they can claim. A process that is ended

@@ -41,7 +41,7 @@ class SceneChecks {
     if (scene_.membrane.pump) check_waveform("membrane.pump.waveform", scene_.membrane.pump->waveform);
     check_periods();
     check_output();
-    check_places();
+    check_varying_properties();
     check_shape_file();
     check_size();
     if (scene_.poration) check_poration(*scene_.poration);
@@ -231,7 +231,7 @@ class SceneChecks {
   enum class Sign { any, zero_or_more, above_zero };
 
   /// Spatially varying properties and the pump.
-  void check_places() const {
+  void check_varying_properties() const {
     const MembraneScene& m = scene_.membrane;
     check_property("capacitance_by_place", m.capacitance_by_place, true, "capacitance", m.capacitance,
                    Sign::above_zero);

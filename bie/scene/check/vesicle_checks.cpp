@@ -135,7 +135,7 @@ class VesicleChecks {
       const Triple& centre = scene_.vesicles[vesicle].shape.centre;
       return fmt::format("{}, about ({:g}, {:g}, {:g})", called(vesicle), centre[0], centre[1], centre[2]);
     };
-    if (arrangement == Arrangement::they_meet)
+    if (arrangement == Arrangement::intersecting)
       file_.refuse(node_of(b), "{}, overlaps {}; {}", placed(b), placed(a), accepted);
     if (arrangement == Arrangement::first_is_inside)
       file_.refuse(node_of(b), "{}, has {} inside; {}", placed(b), called(a), accepted);

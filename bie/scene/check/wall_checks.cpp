@@ -31,7 +31,7 @@ class WallChecks {
     }
     if (wall_.field != WallField::none) check_field();
     if (wall_.flow != WallFlow::none) check_flow();
-    check_places();
+    check_positions();
   }
 
  private:
@@ -101,7 +101,7 @@ class WallChecks {
     return n.x() <= kRounding && (across_slit || (height <= rounding && (!slit || n.y() <= kRounding)));
   }
 
-  void check_places() const {
+  void check_positions() const {
     std::size_t a = 0;
     for (const Scene& one : each_alone(scene_)) {
       const Matrix position = initial_position(one);

@@ -83,7 +83,7 @@ struct PlacedVesicle {
 class Placement {
  public:
   Placement(const Scene& one, const TomlFile& file)
-      : one_(one), wanted_(*one.suspension), file_(file), shape_(one), random_(wanted_.seed) {}
+      : one_(one), suspension_(*one.suspension), file_(file), shape_(one), random_(suspension_.seed) {}
 
   std::vector<PlacedVesicle> run() {
     const int count = counted();
@@ -109,30 +109,30 @@ class Placement {
     file_.refuse_key("suspension", key, problem, std::forward<Arguments>(arguments)...);
   }
 
-  [[nodiscard]] bool is_box() const { return wanted_.kind == SuspensionKind::box; }
+  [[nodiscard]] bool is_box() const { return suspension_.kind == SuspensionKind::box; }
 
-  [[nodiscard]] std::string_view amount_key() const { return wanted_.count ? "count" : "volume_fraction"; }
+  [[nodiscard]] std::string_view amount_key() const { return suspension_.count ? "count" : "volume_fraction"; }
 
   [[nodiscard]] double region_volume() const {
-    return is_box() ? wanted_.size[0] * wanted_.size[1] * wanted_.size[2]
-                    : 4.0 / 3.0 * std::numbers::pi * std::pow(wanted_.radius, 3);
+    return is_box() ? suspension_.size[0] * suspension_.size[1] * suspension_.size[2]
+                    : 4.0 / 3.0 * std::numbers::pi * std::pow(suspension_.radius, 3);
   }
 
   [[nodiscard]] int counted() const {
-    if (wanted_.count.has_value() == wanted_.volume_fraction.has_value()) {
+    if (suspension_.count.has_value() == suspension_.volume_fraction.has_value()) {
       refuse("kind", "[suspension] accepts one of \"count\" and \"volume_fraction\"");
     }
     const double most = static_cast<double>(most_vesicles);
-    const double count = wanted_.count ? static_cast<double>(*wanted_.count)
-                                       : std::round(*wanted_.volume_fraction * region_volume() / shape_.volume);
-    if (wanted_.count && count > most) {
-      refuse("count", "\"count\" in [suspension] is {}; accepted: at most {}", *wanted_.count, most_vesicles);
+    const double count = suspension_.count ? static_cast<double>(*suspension_.count)
+                                           : std::round(*suspension_.volume_fraction * region_volume() / shape_.volume);
+    if (suspension_.count && count > most) {
+      refuse("count", "\"count\" in [suspension] is {}; accepted: at most {}", *suspension_.count, most_vesicles);
     }
     if (!(count >= 1.0 && count <= most)) {
       refuse("volume_fraction", "\"volume_fraction\" in [suspension] makes {:.6g} vesicles; accepted: 1 to {}", count,
              most_vesicles);
     }
-    const double narrowest = is_box() ? *std::ranges::min_element(wanted_.size) : 2.0 * wanted_.radius;
+    const double narrowest = is_box() ? *std::ranges::min_element(suspension_.size) : 2.0 * suspension_.radius;
     if (narrowest < 2.0 * shape_.outer) {
       refuse(is_box() ? "size" : "radius",
              "the region of [suspension] is {:.3g} wide; accepted: at least {:.3g}, the width of a vesicle", narrowest,
@@ -150,7 +150,7 @@ class Placement {
     int exact_tries = 0;
     for (int i = 0; i < kTries && exact_tries < kExactTries; ++i) {
       PlacedVesicle candidate{random_centre(), one_.shape.rotation};
-      if (wanted_.orientation == SuspensionOrientation::random) {
+      if (suspension_.orientation == SuspensionOrientation::random) {
         const Eigen::AngleAxisd turn(random_.rotation());
         candidate.rotation =
             AxisAngle{turn.axis().x(), turn.axis().y(), turn.axis().z(), turn.angle() * 180.0 / std::numbers::pi};
@@ -162,15 +162,15 @@ class Placement {
 
   /// Random centre with the whole vesicle inside the region.
   Vector3 random_centre() {
-    const Vector3 centre = vector_of(wanted_.centre);
-    if (!is_box()) return centre + (wanted_.radius - shape_.outer) * random_.in_ball();
-    const Vector3 half = 0.5 * vector_of(wanted_.size) - Vector3::Constant(shape_.outer);
+    const Vector3 centre = vector_of(suspension_.centre);
+    if (!is_box()) return centre + (suspension_.radius - shape_.outer) * random_.in_ball();
+    const Vector3 half = 0.5 * vector_of(suspension_.size) - Vector3::Constant(shape_.outer);
     return centre + random_.in_cube().cwiseProduct(half.cwiseMax(0.0));
   }
 
   [[nodiscard]] bool is_free(const PlacedVesicle& candidate, const std::vector<PlacedVesicle>& placed,
                              int& exact_tries) const {
-    const double gap = wanted_.gap * shape_.radius;
+    const double gap = suspension_.gap * shape_.radius;
     std::vector<const PlacedVesicle*> neighbours;
     for (const PlacedVesicle& other : placed) {
       const double distance = (other.centre - candidate.centre).norm();
@@ -199,7 +199,7 @@ class Placement {
   }
 
   const Scene& one_;
-  const SuspensionScene& wanted_;
+  const SuspensionScene& suspension_;
   const TomlFile& file_;
   CopiedShape shape_;
   Random random_;

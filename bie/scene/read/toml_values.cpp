@@ -37,7 +37,7 @@ class ValueReader {
     if (text == nullptr && number_of(node)) return std::nullopt;
     if (text == nullptr) refuse(node);
     const double value = si_value(*find_dimension(key_.unit), *text);
-    if (!key_.takes(value)) refuse_value(node, value);
+    if (!key_.accepts(value)) refuse_value(node, value);
     return value;
   }
 
@@ -58,7 +58,7 @@ class ValueReader {
     const std::optional<double> number = text != nullptr ? value_with_unit(*text) : number_of(node);
     if (!number) refuse(node);
     if (!std::isfinite(*number)) refuse(node, fmt::format("is {}, not a finite number", *number));
-    if (!key_.takes(*number)) refuse_value(node, *number);
+    if (!key_.accepts(*number)) refuse_value(node, *number);
     // Turns −0 into 0: 1/0 has a sign.
     value = *number + 0.0;
   }

@@ -30,7 +30,7 @@ struct ProbePoints {
 struct View {
   double along;    ///< distance along u
   double allowed;  ///< the larger of their spacings
-  double lack;     ///< ≤ 0 if they face each other and their distance across u is at most a spacing
+  double excess;   ///< ≤ 0 if they face each other and their distance across u is at most a spacing
 };
 
 /// ≤ 0 if the points face each other.
@@ -122,7 +122,7 @@ double separation(const SphereTransform& nodes, const Matrix& position, bool one
 #pragma omp simd reduction(min : least2)
       for (Index j = first; j < end; ++j) {
         const View seen = view(x, y, z, nx, ny, nz, spacing, i, j);
-        const double here2 = seen.lack <= 0.0 ? seen.along / seen.allowed : kNone;
+        const double here2 = seen.excess <= 0.0 ? seen.along / seen.allowed : kNone;
         least2 = here2 < least2 ? here2 : least2;
       }
     }

@@ -48,8 +48,8 @@ LoadAt of_tension(double threshold, double capacitance, const Vector& varying, c
 
 /// Share of the step at which the load passes 1, from below 1 at its start to at least 1 at its end.
 double crossing_share(const PorationLoad& from, const PorationLoad& to, double dt) {
-  const double lacks = 1.0 - from.load, exceeds = to.load - 1.0;
-  const double straight = lacks / (lacks + exceeds);
+  const double missing = 1.0 - from.load, exceeds = to.load - 1.0;
+  const double straight = missing / (missing + exceeds);
   if (!std::isfinite(from.rate) || !std::isfinite(to.rate)) return straight;
   const auto load_at = [&](double s) {
     const double r = 1.0 - s;

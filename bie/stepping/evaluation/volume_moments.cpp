@@ -11,7 +11,7 @@ namespace vehd {
 namespace {
 
 /// ∫ (a·n) f dA for every column f.
-Eigen::RowVectorXd flux_mean(const Surface& s, const Matrix& a, const Matrix& f) {
+Eigen::RowVectorXd flux_integral(const Surface& s, const Matrix& a, const Matrix& f) {
   const Vector flux = a.cwiseProduct(s.normal).rowwise().sum().cwiseProduct(s.quadrature);
   return flux.transpose() * f;
 }
@@ -34,13 +34,13 @@ VolumeMoments volume_moments(const Surface& s) {
   const Vector3 mean = centroid(s);
   const Matrix y = s.position.rowwise() - mean.transpose();
   // y and y yᵀ are homogeneous of degree 1 and 2: their volume integrals are fluxes of y f over 4 and 5.
-  const double volume = flux_mean(s, y, Matrix::Ones(y.rows(), 1))[0] / 3.0;
-  const Vector3 offset = flux_mean(s, y, y).transpose() / (4.0 * volume);
+  const double volume = flux_integral(s, y, Matrix::Ones(y.rows(), 1))[0] / 3.0;
+  const Vector3 offset = flux_integral(s, y, y).transpose() / (4.0 * volume);
   VolumeMoments moments;
   moments.centroid = mean + offset;
   for (int i = 0; i < 3; ++i) {
     const Matrix products = y.col(i).asDiagonal() * y;
-    moments.spread.row(i) = flux_mean(s, y, products) / (5.0 * volume);
+    moments.spread.row(i) = flux_integral(s, y, products) / (5.0 * volume);
   }
   moments.spread -= offset * offset.transpose();
   return moments;
@@ -48,7 +48,7 @@ VolumeMoments volume_moments(const Surface& s) {
 
 Vector3 centroid_velocity(const Surface& s, const VolumeMoments& moments, const Matrix& velocity) {
   const Matrix y = s.position.rowwise() - moments.centroid.transpose();
-  return flux_mean(s, velocity, y).transpose() / enclosed_volume(s);
+  return flux_integral(s, velocity, y).transpose() / enclosed_volume(s);
 }
 
 Turning turning(const Surface& s, const VolumeMoments& moments, const Matrix& velocity, const Vector3& axis) {
@@ -63,7 +63,7 @@ Turning turning(const Surface& s, const VolumeMoments& moments, const Matrix& ve
   const Eigen::Matrix2d spread = across.transpose() * moments.spread * across;
   Eigen::Matrix2d rate;
   for (int i = 0; i < 2; ++i) {
-    rate.row(i) = flux_mean(s, relative, y.col(i).asDiagonal() * y) / enclosed_volume(s);
+    rate.row(i) = flux_integral(s, relative, y.col(i).asDiagonal() * y) / enclosed_volume(s);
   }
   const double difference = spread(0, 0) - spread(1, 1), product = 2.0 * spread(0, 1);
   const double length = std::hypot(difference, product);

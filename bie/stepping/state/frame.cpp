@@ -97,9 +97,9 @@ std::vector<Vector3> axis_candidates(const Model& model, const State& state) {
   return result;
 }
 
-bool is_same_everywhere(const Model& model) {
+bool is_translation_invariant(const Model& model) {
   return std::ranges::all_of(effects_on_all(model),
-                             [](const MadeEffect& effect) { return effect->is_same_everywhere(); });
+                             [](const MadeEffect& effect) { return effect->is_translation_invariant(); });
 }
 
 /// Mean over the parameter spheres.
@@ -116,7 +116,7 @@ std::vector<Vector3> origin_candidates(const Model& model, const State& state) {
     const double size = vesicle.position.bottomRows(vesicle.position.rows() - 1).norm();
     return vesicle.position.row(0).norm() > kSamePlace * size;
   };
-  if (is_same_everywhere(model) && std::any_of(state.vesicles.begin(), state.vesicles.end(), is_away)) {
+  if (is_translation_invariant(model) && std::any_of(state.vesicles.begin(), state.vesicles.end(), is_away)) {
     result.push_back(mean_position(state));
   }
   return result;

@@ -84,7 +84,7 @@ double largest_change(const StepStart& start, const Collocation& y, const std::v
 }
 
 /// A solution within the step with its estimated error.
-struct Moment {
+struct InterpolatedSolution {
   NodeSolution solution;
   double error = 0.0;
 };
@@ -100,7 +100,7 @@ struct SweptStep {
 
   /// The solution at a time within the step, corrected with the rates at the nodes and, if its error is too large, once
   /// more with the rate there.
-  [[nodiscard]] Moment at(double time, double allowed) const {
+  [[nodiscard]] InterpolatedSolution at(double time, double allowed) const {
     std::vector<double> points = points_of(rule);
     const double place = (time - start.state.time) / dt;
     Corrections changes;
@@ -118,19 +118,19 @@ struct SweptStep {
   }
 };
 
-/// Finds the states at the moments of the goal. @returns whether all are accurate enough
-bool pass_moments(const SweptStep& step, const StepGoal& goal, ControlledSweeps& result) {
+/// Finds the states at the output times of the goal. @returns whether all are accurate enough
+bool find_dense_states(const SweptStep& step, const StepGoal& goal, ControlledSweeps& result) {
   const double start = step.start.state.time;
-  const double allowed = thresholds::moment_share * goal.tolerance / step.errors.magnification();
-  for (const double time : goal.moments.between(start, start + step.dt)) {
-    const Moment moment = step.at(time, allowed);
-    if (moment.error > allowed) {
+  const double allowed = thresholds::dense_output_share * goal.tolerance / step.errors.magnification();
+  for (const double time : goal.output_times.between(start, start + step.dt)) {
+    const InterpolatedSolution found = step.at(time, allowed);
+    if (found.error > allowed) {
       const int power = static_cast<int>(step.rule.nodes.size()) + 2;
-      result.excess = moment.error / allowed;
+      result.excess = found.error / allowed;
       result.factor = std::min(result.factor, size_factor(result.excess, power));
       return false;
     }
-    result.passed.push_back(state_at(step.start, moment.solution));
+    result.dense_states.push_back(state_at(step.start, found.solution));
   }
   return true;
 }
@@ -171,7 +171,7 @@ ControlledSweeps controlled_sweeps(StepOperations& physics, double dt, int order
   }
   // Solves for states within the step must not change the subspaces that the next step recycles.
   result.state = physics.end_state(y.node(y.last()));
-  if (!pass_moments({physics.start(), rule, dt, y, errors, derivatives}, goal, result)) return result;
+  if (!find_dense_states({physics.start(), rule, dt, y, errors, derivatives}, goal, result)) return result;
   // Otherwise extrapolations would amplify stiff errors from step to step.
   if (errors.visible.converge()) store_past(physics.start(), y.nodes(), result.state);
   result.end = std::move(y.node(y.last()));

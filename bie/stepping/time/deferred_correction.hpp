@@ -58,14 +58,14 @@ class Corrections {
 /// Requirements of a step with a tolerance.
 struct StepGoal {
   double tolerance = 0.0;
-  SnapshotTimes moments{};  ///< times within the step at which states are needed
+  SnapshotTimes output_times{};  ///< times within the step at which states are needed
 };
 
 /// Result of a step with a tolerance.
 struct ControlledSweeps {
   std::optional<NodeSolution> end;  ///< if the step is accurate enough
   State state;                      ///< at that end
-  std::vector<State> passed;        ///< at the moments of the goal before it
+  std::vector<State> dense_states;  ///< at the output times before that end
   double excess = 0.0;              ///< estimated error over the allowed error
   double factor = 1.0;              ///< size with the least work per unit of time, over the size of this step
 };

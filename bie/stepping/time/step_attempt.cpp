@@ -38,7 +38,7 @@ void try_to_reach(const StepGoal& goal, double dt, int order, StepOperations& ph
   attempt.error_estimate = sweeps.excess * goal.tolerance;
   attempt.factor = sweeps.factor;
   attempt.state = std::move(sweeps.state);
-  attempt.passed = std::move(sweeps.passed);
+  attempt.dense_states = std::move(sweeps.dense_states);
   attempt.accepted = sweeps.end.has_value();
   if (attempt.accepted) {
     attempt.raw_area = raw_area_of(*sweeps.end);

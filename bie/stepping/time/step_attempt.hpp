@@ -22,7 +22,7 @@ struct StepAttempt : StepWork {
   /// Relative area error that the step would have left without its constraint: a drift of the step's order.
   double raw_area = 0.0;
   std::vector<double> arrival_shifts;  ///< Motion::arrival_shift of each vesicle at its end, when accepted
-  std::vector<State> passed;           ///< at the requested times within the step
+  std::vector<State> dense_states;     ///< at the requested times within the step
   double factor = 1.0;                 ///< best size over this one, see ControlledSweeps
   int rejected = 0;                    ///< earlier attempts at the step
   bool at_snapshot = false;            ///< a snapshot is due at its end

@@ -201,8 +201,8 @@ std::vector<Unknowns> StepOperations::charged(const std::vector<Unknowns>& from,
 
 void StepOperations::take(Unknowns charged, double time, std::size_t a, SurfaceFields& fields) const {
   if (charges()) {
-    forget_decayed(time, a, charged.transmembrane_potential);
-    if (charged.free_charge.size() > 0) forget_decayed(time, a, charged.free_charge);
+    clear_decayed(time, a, charged.transmembrane_potential);
+    if (charged.free_charge.size() > 0) clear_decayed(time, a, charged.free_charge);
   }
   fields.transmembrane_potential = std::move(charged.transmembrane_potential);
   fields.free_charge = std::move(charged.free_charge);
@@ -210,7 +210,7 @@ void StepOperations::take(Unknowns charged, double time, std::size_t a, SurfaceF
 }
 
 /// Sets a decayed potential to zero, so that the electric part becomes inactive.
-void StepOperations::forget_decayed(double time, std::size_t a, Vector& potential) const {
+void StepOperations::clear_decayed(double time, std::size_t a, Vector& potential) const {
   if (start_.model.vesicles[a].pump) return;
   const double scale = start_.model.electric->field.norm() * start_.solved.vesicles[a].membrane->radius;
   if (start_.model.electric->waveform.is_quiet(time) && potential.norm() < decayed_potential * scale)

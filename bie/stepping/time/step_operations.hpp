@@ -98,7 +98,7 @@ class StepOperations {
   [[nodiscard]] std::vector<Unknowns> charged(const std::vector<Unknowns>& from, const std::vector<Unknowns>* residual,
                                               double time, double dt, NodeWork& work) const;
   void take(Unknowns charged, double time, std::size_t vesicle, SurfaceFields& fields) const;
-  void forget_decayed(double time, std::size_t vesicle, Vector& potential) const;
+  void clear_decayed(double time, std::size_t vesicle, Vector& potential) const;
   [[nodiscard]] const Partition& partition() const { return start_.discretisation.partition(); }
   [[nodiscard]] Arrival arrival(std::size_t vesicle, NodeEnd end, Instruments& instruments) const;
   using RigidMotion = std::function<SphereMotion(std::size_t vesicle, const Membrane& sphere)>;

@@ -64,11 +64,11 @@ Vector weights_from_zero(const Vector& places, double x) {
 
 double integration_error(const std::vector<double>& points, double c, int power) {
   const Vector weights = integration_weights(points, c);
-  double lacks = power_of(c, power + 1) / (power + 1.0);
+  double residual = power_of(c, power + 1) / (power + 1.0);
   for (std::size_t j = 0; j < points.size(); ++j) {
-    lacks -= weights[static_cast<Index>(j)] * power_of(points[j], power);
+    residual -= weights[static_cast<Index>(j)] * power_of(points[j], power);
   }
-  return lacks / std::tgamma(power + 1.0);
+  return residual / std::tgamma(power + 1.0);
 }
 
 Vector derivative_weights(const std::vector<double>& points, int derivative) {

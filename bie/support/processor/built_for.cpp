@@ -1,6 +1,6 @@
 #include "bie/support/processor/features.hpp"
 
-// Compiled with the flags of the whole program, but holds no instruction.
+// Compiled with the flags of the whole program, but contains no instructions.
 const char* const vehd::processor::built_for[] = {
 #ifdef __SSE3__
     "sse3",

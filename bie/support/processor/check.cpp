@@ -13,13 +13,13 @@ using vehd::processor::built_for;
 
 void say(const char* text) { [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
-/// Every extension that `built_for` may name, and whether this processor has it.
+/// An extension that `built_for` may name, and whether this processor has it.
 struct Feature {
   const char* name;
   bool present;
 };
 
-/// "vehd" of "build/vehd".
+/// Last component of a path: "vehd" of "build/vehd".
 const char* file_name(const char* path) {
   const char* slash = std::strrchr(path, '/');
   return slash == nullptr ? path : slash + 1;
@@ -74,8 +74,8 @@ void refuse_a_processor_that_lacks_something(int argc, char** argv, char** /*env
   ::_exit(1);
 }
 
-/// Before all initialisers, those of shared libraries included: the loader gives them the functions of this program in
-/// place of their own where both have instantiated the same template.
+/// Runs before all initialisers, even those of shared libraries: the loader binds these to functions of this program if
+/// both have instantiated the same template.
 __attribute__((section(".preinit_array"), used)) void (*first_of_all)(int, char**,
                                                                       char**) = refuse_a_processor_that_lacks_something;
 

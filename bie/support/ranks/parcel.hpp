@@ -11,20 +11,20 @@
 
 #include "bie/support/types.hpp"
 
-/// Values as bytes, one behind the other, for processes of one program on machines of one kind.
+/// Values as consecutive bytes, for processes of one program on machines of one kind.
 ///
-/// A type with memory of its own lists its members: visit_members(value, visit) calls visit(member, member, …) once.
+/// A type that owns memory lists its members: visit_members(value, visit) calls visit(member, member, …) once.
 namespace vehd {
 
-/// All of it is in its own bytes: numbers, matrices of fixed size, structs of these.
+/// Types without memory elsewhere: numbers, matrices of fixed size, structs of these.
 template <typename T>
 concept Flat = std::is_trivially_destructible_v<T> && !std::is_pointer_v<T>;
 
-/// A matrix whose numbers are elsewhere.
+/// Matrices of dynamic size.
 template <typename T>
 concept ResizableMatrix = !Flat<T> && std::derived_from<T, Eigen::PlainObjectBase<T>>;
 
-/// T or const T, of which visit_members takes both.
+/// T or const T: visit_members takes both.
 template <typename Value, typename T>
 concept MaybeConst = std::same_as<std::remove_const_t<Value>, T>;
 
@@ -69,13 +69,13 @@ class Packing {
   std::string bytes_;
 };
 
-/// Unpacks values, in the order in which they were packed.
+/// Unpacks values in the order in which they were packed.
 class Unpacking {
  public:
-  /// @param bytes  must outlive it
+  /// @param bytes  must outlive this
   explicit Unpacking(const std::string& bytes) : bytes_(bytes) {}
 
-  /// @throws std::logic_error if there is no more
+  /// @throws std::logic_error if too few bytes are left
   template <typename... Values>
   void operator()(Values&... values) {
     (get(values), ...);
@@ -102,7 +102,7 @@ class Unpacking {
     (*this)(rows, cols);
     matrix.resize(rows, cols);
     const std::size_t size = sizeof(double) * static_cast<std::size_t>(matrix.size());
-    // An empty matrix has no place to copy to.
+    // The data pointer of an empty matrix may be null.
     if (size > 0) std::memcpy(matrix.data(), next(size), size);
   }
   template <typename T>

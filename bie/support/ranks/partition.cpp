@@ -15,7 +15,7 @@ Partition::Partition(Ranks ranks, const std::vector<double>& costs, std::vector<
   const double all = std::accumulate(done.begin(), done.end(), 0.0);
   double before = 0.0;
   for (std::size_t part = 0; part < done.size(); ++part) {
-    // By the middle of the part.
+    // The midpoint of its interval of costs decides.
     const int rank = static_cast<int>((before + 0.5 * done[part]) / all * ranks_.size());
     owners_.push_back(is_image(part) ? owners_[originals_[part]] : std::clamp(rank, 0, ranks_.size() - 1));
     before += done[part];

@@ -10,28 +10,28 @@
 
 namespace vehd {
 
-/// Which of several parts of a work, such as vesicles, each rank does. A rank owns neighbours in their order, so that
-/// what ranks send one after the other is in the order of the parts: sums in that order have the same bits for any
-/// number of ranks. Parts that are images of others are not computed but mapped from the results of their originals.
+/// Distribution of the parts of some work, such as vesicles, over ranks. A rank owns consecutive parts, so that
+/// messages in the order of ranks are in the order of parts: sums in that order have the same bits for any number of
+/// ranks. Parts that are images of others are not computed but mapped from the results of their originals.
 class Partition {
  public:
-  /// One rank does all, however many there are.
+  /// One rank owns all parts, whatever their number.
   Partition() = default;
-  /// @param costs      of each part; every rank gets about the same
-  /// @param originals  of each part the one that it is an image of, or itself; empty where there are no images
+  /// @param costs      of each part; every rank gets about the same total
+  /// @param originals  for each part the one that it is an image of, or itself; empty if there are no images
   Partition(Ranks ranks, const std::vector<double>& costs, std::vector<std::size_t> originals = {});
 
   [[nodiscard]] const Ranks& ranks() const { return ranks_; }
-  /// Rank of a part; an image has that of its original.
+  /// Rank that owns a part; an image belongs to the rank of its original.
   [[nodiscard]] int owner(std::size_t part) const { return owners_.empty() ? 0 : owners_[part]; }
-  /// Does this rank do the part? None does an image.
+  /// Does this rank compute the part? No rank computes an image.
   [[nodiscard]] bool is_local(std::size_t part) const { return !is_image(part) && has(part); }
   [[nodiscard]] bool is_image(std::size_t part) const { return !originals_.empty() && originals_[part] != part; }
-  /// The indices of those of n parts that this rank owns.
+  /// Indices of those of n parts that this rank computes.
   [[nodiscard]] std::vector<std::size_t> local_indices(std::size_t n) const;
 
-  /// The values of all parts from their owners; those of others count for nothing before. Collective.
-  /// @param image  (value of the original, part) ↦ value of an image
+  /// Gathers the values of all parts from their owners; other values are ignored on input. Collective.
+  /// @param image  (value of the original, part) ↦ value of the image
   template <typename T, typename Image>
   void gather(std::vector<T>& values, const Image& image) const {
     for (std::size_t a = 0; a < originals_.size(); ++a) {
@@ -50,15 +50,15 @@ class Partition {
       }
     }
   }
-  /// Gathers values where there are no images.
-  /// @throws std::logic_error where there are
+  /// Gathers values of parts without images.
+  /// @throws std::logic_error if there are images
   template <typename T>
   void gather(std::vector<T>& values) const {
     gather(values, [](const T&, std::size_t) -> T { throw std::logic_error("nothing makes images of these values"); });
   }
 
-  /// The value of `part(a)` for each of n parts, and `image(value of the original, a)` for images, on all ranks, which
-  /// call them for their own, `part` on threads as for_each_member does. If they throw, all ranks throw.
+  /// Values of n parts on all ranks: `part(a)`, or `image(value of the original, a)` of an image. Each rank calls them
+  /// for its own parts, `part` on threads as in for_each_member. If one rank throws, all ranks throw.
   template <typename Part, typename Image>
   auto of_all(std::size_t n, const Part& part, const Image& image) const {
     std::vector<std::invoke_result_t<const Part&, std::size_t>> values(n);

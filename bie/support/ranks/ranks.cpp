@@ -9,9 +9,9 @@ namespace vehd {
 
 namespace {
 
-// The first letter of what a rank gives says which call it is in.
+// The first letter of a message names the collective call.
 constexpr char kGather = 'g', kExchange = 'x', kMeet = 'm', kFailed = 'f';
-// That of a failure says with what.
+// The second letter of a failure names its class.
 constexpr char kConvergence = 'c', kInput = 'i', kShape = 's', kOutput = 'o', kLogic = 'l', kOther = 'e';
 
 template <typename Error>
@@ -97,7 +97,7 @@ void Ranks::meet() const {
 
 void Ranks::fail(const std::exception_ptr& exception) const {
   (void)gather_as(kFailed, failure_text(exception));
-  // Not reached: the failure is its own as well.
+  // Not reached: gather_as throws the failure on this rank as well.
   std::rethrow_exception(exception);
 }
 

@@ -14,15 +14,15 @@ namespace vehd {
 /// Marks an exception that all ranks throw.
 class Agreed {};
 
-/// Processes that compute one run together, its ranks; one alone unless there is a link. A value: copies talk over the
-/// same link.
+/// The processes that compute one run together, called ranks; a single one unless there is a link. Copies share the
+/// link.
 ///
-/// All ranks take the same decisions from the same bits, so all make the same collective calls in the same order. Where
-/// one of them throws instead, the next collective call of the others throws the same: nobody waits for a rank that
-/// has left. That holds within `together`, the outermost of which is around the whole run.
+/// All ranks take the same decisions from the same bits, so all make the same collective calls in the same order. If
+/// one of them throws instead, the next collective call of the others throws the same exception: no rank waits for one
+/// that has left. This holds within `together`, the outermost of which encloses the whole run.
 class Ranks {
  public:
-  /// Alone: nothing is sent anywhere.
+  /// A single rank: nothing is sent.
   Ranks() = default;
   explicit Ranks(std::shared_ptr<RankLink> link) : link_(std::move(link)) {}
 
@@ -32,21 +32,21 @@ class Ranks {
   /// The rank that writes files and prints.
   [[nodiscard]] bool is_first() const { return rank() == 0; }
 
-  // Collective calls. Each throws what any rank has failed with, see together, or std::logic_error where ranks do
-  // different things: machines that round differently decide differently.
+  // Collective calls. Each throws the failure of any rank, see together, or std::logic_error if ranks make different
+  // calls: machines that round differently decide differently.
 
-  /// Values of all ranks, in their order.
+  /// Values of all ranks, in the order of ranks.
   [[nodiscard]] std::vector<std::string> gather(std::string own) const;
-  /// `to[r]` goes to rank r.
+  /// Sends `to[r]` to rank r.
   /// @return the messages of all ranks to this one
   [[nodiscard]] std::vector<std::string> exchange(const std::vector<std::string>& to) const;
-  /// Whether it holds on any rank.
+  /// True if `own` is true on any rank.
   [[nodiscard]] bool any(bool own) const;
-  /// Returns when all ranks have come here.
+  /// Barrier: returns when all ranks have called it.
   void meet() const;
 
-  /// Runs `body` on all ranks. If one throws, all throw the same: of several the exception of the lowest rank. Its
-  /// class is that of bie/support/errors.hpp or output_error.hpp, or std::runtime_error.
+  /// Runs `body` on all ranks. If some throw, all throw the exception of the lowest of these ranks, as a class of
+  /// bie/support/errors.hpp, OutputError, std::logic_error or std::runtime_error.
   template <typename Body>
   std::invoke_result_t<const Body&> together(const Body& body) const {
     if (is_alone()) return body();
@@ -72,7 +72,7 @@ class Ranks {
     }
   }
   [[nodiscard]] std::vector<std::string> gather_as(char call, const std::string& own) const;
-  /// Tells the others, who are in some collective call or come to one.
+  /// Reports a failure to the other ranks, which are in a collective call or will come to one.
   [[noreturn]] void fail(const std::exception_ptr& exception) const;
 
   std::shared_ptr<RankLink> link_;

@@ -1,4 +1,4 @@
-// What the report carries, and numbers as text.
+// Data of the report, and numbers as text.
 
 /** Number with at most `digits` significant digits, powers of ten where they are shorter. */
 function textOf(value, digits = 4) {

@@ -86,7 +86,7 @@ class Report {
       this.redraw();
     });
     view.addEventListener("wheel", (event) => {
-      // Until it is clicked the wheel scrolls the page, which the picture would stop otherwise.
+      // The wheel scrolls the page until the picture is clicked.
       if (document.activeElement !== view) return;
       event.preventDefault();
       this.viewer.enlarge(Math.exp(-0.001 * event.deltaY));
@@ -131,7 +131,7 @@ class Report {
     const last = this.run.surface.times.length - 1;
     if (on && last > 0) {
       if (this.snapshot === last) this.show(0);
-      // The whole run in about ten seconds, but each shape long enough to be seen and short enough to move.
+      // The whole run in about ten seconds, but each shape long enough to be seen and short enough to show motion.
       const pause = Math.max(40, Math.min(400, 10000 / (last + 1)));
       this.timer = setInterval(() => {
         this.show(this.snapshot + 1);

@@ -158,7 +158,7 @@ class HistoryPlot {
     const times = this.panel.time;
     const after = times.findIndex((t) => t >= time);
     if (after === -1) return values[values.length - 1];
-    // Where the field jumps two rows have one time: the second tells how it goes on.
+    // At a jump of the field two rows have the same time: the second has the values after it.
     if (after === 0 || times[after] === time) return values[times.lastIndexOf(times[after])];
     const [a, b] = [values[after - 1], values[after]];
     if (a === null || b === null) return null;

@@ -7,7 +7,7 @@
 class SphereLattice {
   constructor(degree) {
     this.degree = degree;
-    // Equator and quarter turns are on the lattice; its points can be counted in 16 bits.
+    // Equator and quarter turns are lattice points; the points can be counted in 16 bits.
     this.rows = Math.min(159, Math.max(65, 2 * degree + 1));
     this.columns = 2 * (this.rows + 1);
     this.legendre = [];

@@ -201,7 +201,7 @@ function drawOverlay(svg, viewer, run) {
   const width = svg.clientWidth, height = svg.clientHeight;
   svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
   const frame = viewer.frame(), nodes = [], size = 40;
-  // The field has a place of its own: it often points along an axis.
+  // The field has a separate position, since it often points along an axis.
   const centres = { axis: [84, height - 88], flow: [84, height - 88], field: [150, height - 88] };
   const place = (v, kind = "axis") =>
     [centres[kind][0] + size * dot(frame[0], v), centres[kind][1] - size * dot(frame[1], v)];

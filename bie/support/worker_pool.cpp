@@ -1,4 +1,4 @@
-#include "bie/support/crew.hpp"
+#include "bie/support/worker_pool.hpp"
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
@@ -15,7 +15,7 @@
 
 namespace vehd {
 
-Crew::~Crew() {
+WorkerPool::~WorkerPool() {
   stop();
   for (const Copy& copy : copies_) {
     while (::waitpid(copy.process, nullptr, 0) < 0 && errno == EINTR) {
@@ -23,8 +23,8 @@ Crew::~Crew() {
   }
 }
 
-void Crew::start(int number) {
-  // Otherwise a copy would write once more what waits here.
+void WorkerPool::start(int number) {
+  // Otherwise a copy would write buffered output a second time.
   std::fflush(nullptr);
   const pid_t owner = ::getpid();
   const pid_t process = ::fork();
@@ -39,12 +39,12 @@ void Crew::start(int number) {
     if (::getppid() == owner) exit_code = work_(number);
   } catch (...) {
   }
-  // What the owner is to do at its own end is none of the copy's.
+  // Exit handlers of the owner must not run in a copy.
   std::fflush(nullptr);
   ::_exit(exit_code);
 }
 
-std::optional<Crew::End> Crew::next_end() {
+std::optional<WorkerPool::End> WorkerPool::next_end() {
   for (auto copy = copies_.begin(); copy != copies_.end(); ++copy) {
     int status = 0;
     if (::waitpid(copy->process, &status, WNOHANG) != copy->process) continue;
@@ -56,7 +56,7 @@ std::optional<Crew::End> Crew::next_end() {
   return std::nullopt;
 }
 
-void Crew::stop() const {
+void WorkerPool::stop() const {
   for (const Copy& copy : copies_) ::kill(copy.process, SIGTERM);
 }
 
