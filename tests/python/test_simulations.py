@@ -94,7 +94,7 @@ class Bits(InFolder):
     def test_a_run_goes_on_in_another_flow_as_that_of_the_program_does(self):
         first = self.folder / "first"
         vehd.Simulation(vehd.Scene.from_text(SHEARED), first).run()
-        after = self.write(SHEARED.replace("rate = 1.0", "rate = 2.0").replace("end_time = 0.05", "end_time = 0.08"),
+        after = self.write(SHEARED.replace("rate = 1.0", "rate = 2.0").replace("end_time = 0.1", "end_time = 0.2"),
                            "after.toml")
         self.run_program("run", after, "--from", first, "-o", self.folder / "program", "--no-plot", "--quiet")
         run = vehd.Simulation(after, self.folder / "python", from_run=first).run()
