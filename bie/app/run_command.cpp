@@ -83,7 +83,7 @@ ExitCode run(const RunOptions& options, const Ranks& ranks) {
   const std::filesystem::path directory = directory_of(options);
   SceneSource source = options.scene.source;
   if (options.resume || !options.from.empty()) {
-    source = in_scales_of(std::move(source), {options.from.empty() ? directory : options.from});
+    source = in_scales_of(std::move(source), {options.from.empty() ? directory : std::filesystem::path(options.from)});
   }
   const Scene scene = read_scene(source);
   const RunSession session(scene, source, directory, options.resume, ranks, false, options.from);

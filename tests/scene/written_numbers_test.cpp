@@ -120,12 +120,12 @@ BOOST_AUTO_TEST_CASE(every_key_reads_the_number_that_is_written_or_refuses_it_by
       BOOST_TEST_CONTEXT(key.table << "." << key.name << " = " << value << "\n" << reading.refusal) {
         if (reading.number) {
           BOOST_TEST(*reading.number == literal.value);
-          BOOST_TEST(key.takes(*reading.number));
+          BOOST_TEST(key.accepts(*reading.number));
           ++read_count;
         } else {
           BOOST_TEST(reading.refusal.starts_with("scene.toml:2: "));
           BOOST_TEST(reading.refusal.find("; accepted: ") != std::string::npos);
-          BOOST_TEST((!key.takes(literal.value) || key.type == vehd::ValueType::integer));
+          BOOST_TEST((!key.accepts(literal.value) || key.type == vehd::ValueType::integer));
         }
       }
     }

@@ -123,10 +123,10 @@ BOOST_AUTO_TEST_CASE(a_tolerance_serves_all_vesicles_and_their_snapshots) {
   Instruments instruments;
   Evolution evolution(setup, {StartMembrane{shapes[0]}, StartMembrane{shapes[1]}}, instruments);
   evolution.evaluate_start();
-  std::vector<Evolution::Moment> moments;
+  std::vector<Evolution::DenseOutput> moments;
   while (evolution.state().time < 1.0) {
     evolution.step({{.times = {moment}}, 1.0});
-    moments.insert(moments.end(), evolution.passed().begin(), evolution.passed().end());
+    moments.insert(moments.end(), evolution.dense_output().begin(), evolution.dense_output().end());
   }
   const ProlateErrors errors = prolate_errors(evolution);
   BOOST_TEST(errors.place < tolerance);
