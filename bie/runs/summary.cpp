@@ -114,30 +114,31 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
 }
 
 std::string regime_of(const HistoryTable& history, const OutputUnits& units) {
-  if (!history.has("tumbling_frequency") || history.n_rows() < 2) return "";
+  if (!history.has("treading_frequency") || history.n_rows() < 2) return "";
   if (history.largest_magnitude("tumbling_frequency") == 0.0 &&
       history.largest_magnitude("treading_frequency") == 0.0) {
     return "";
   }
   const auto& times = history.column("time");
-  const auto& tumbling = history.column("tumbling_frequency");
+  const auto& inclination = history.column("inclination_deg");
   const auto& treading = history.column("treading_frequency");
   const double middle = 0.5 * (times.front() + times.back());
-  const double unit = units.of("time").factor * units.of("1/time").factor;
-  double turned = 0.0, least = 0.0, most = 0.0, trodden = 0.0;
+  const double revolution = units.of("time").factor * units.of("1/time").factor;
+  double turned = 0.0, least = 0.0, most = 0.0, last_turn = 0.0, trodden = 0.0;
   int n_reversals = 0;
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (times[i - 1] < middle) continue;
-    const double half_step = 0.5 * (times[i] - times[i - 1]) / unit;
-    turned += half_step * (tumbling[i] + tumbling[i - 1]);
-    trodden += half_step * (treading[i] + treading[i - 1]);
+    trodden += 0.5 * (times[i] - times[i - 1]) * (treading[i] + treading[i - 1]) / revolution;
+    const double turn = std::remainder(inclination[i] - inclination[i - 1], 180.0);
+    turned += turn;
     least = std::min(least, turned);
     most = std::max(most, turned);
-    if (tumbling[i] * tumbling[i - 1] < 0.0) ++n_reversals;
+    if (turn == 0.0) continue;
+    if (turn * last_turn < 0.0) ++n_reversals;
+    last_turn = turn;
   }
-  constexpr double degree = 1.0 / 360.0;
-  if (std::abs(turned) >= 0.5) return "tumbling";
-  if (most - least <= degree) return std::abs(trodden) >= 0.25 ? "tank-treading" : "unsettled";
+  if (std::abs(turned) >= 180.0) return "tumbling";
+  if (most - least <= 1.0) return std::abs(trodden) >= 0.25 ? "tank-treading" : "unsettled";
   return n_reversals >= 2 ? "trembling" : "unsettled";
 }
 

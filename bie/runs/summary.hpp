@@ -16,15 +16,14 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
 /// An array of objects {name, value, limit, text}.
 nlohmann::json json_of(const std::vector<ModelWarning>& warnings);
 
-/// Motion in shear at the end of a history of one vesicle, judged over the second half of its time by the angle ψ by
-/// which the shape turns about the vorticity:
-///   "tumbling"       ψ turns by half a revolution or more
+/// Motion in shear at the end of the history of one vesicle, from the second half of its times:
+///   "tumbling"       the inclination ψ changes by half a revolution or more
 ///   "tank-treading"  ψ stays within a degree while the membrane treads a quarter of a revolution or more
-///   "trembling"      ψ swings by more than a degree, back and forth
-/// "unsettled"      none of these, as before the motion has settled; a longer run may decide
-/// Empty if the history lacks the columns of turning, or if nothing turns.
+///   "trembling"      ψ swings back and forth by more than a degree
+///   "unsettled"      none of these, for instance because the run is too short
+/// Empty if nothing turns, or without the columns of turning. ψ may change by less than 90° from row to row.
 /// @param units  of the history
-/// Source: Misbah 2006 for the three motions; trembling is called vacillating-breathing there
+/// Source: the three motions: Misbah 2006; trembling is vacillating-breathing there
 std::string regime_of(const HistoryTable& history, const OutputUnits& units);
 
 }  // namespace vehd

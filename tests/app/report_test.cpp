@@ -73,7 +73,7 @@ std::string scene_without_field() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(report, *boost::unit_test::label("once"))
+BOOST_AUTO_TEST_SUITE(report, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(page_needs_nothing_else_and_tells_of_the_run) {
   const ReportedRun run(quick_scene());

@@ -18,7 +18,7 @@ ProgramResult judged(const TemporaryDirectory& directory, const std::string& sce
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(stability, *boost::unit_test::label("slow"))
+BOOST_AUTO_TEST_SUITE(stability, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
 BOOST_AUTO_TEST_CASE(every_hard_case_holds_in_its_short_form) {
   const TemporaryDirectory directory;

@@ -209,22 +209,23 @@ BOOST_AUTO_TEST_CASE(normal_stresses_are_differences_of_the_stress) {
 
 BOOST_AUTO_TEST_CASE(the_regime_is_that_of_the_second_half) {
   // In ms, frequencies in 1/s: the units must not matter.
-  const auto regime = [&](auto tumbling, double treading) {
+  const auto regime = [&](auto turns, double treading) {
     vehd::HistoryTable table(kUnits, vehd::HistoryKind::of_one);
     for (int i = 0; i <= 200; ++i) {
       vehd::HistoryRow row = row_at(0.1 * i);
-      row.diagnostics.vesicles[0].tumbling_frequency = tumbling(row.time);
+      // In (−90, 90], as an axis has it.
+      row.diagnostics.vesicles[0].inclination_deg = 360.0 * std::remainder(turns(row.time), 0.5);
       row.diagnostics.vesicles[0].treading_frequency = treading;
       table.append(row);
     }
     return vehd::regime_of(table, kUnits);
   };
-  const auto settling = [](double t) { return t < 9.0 ? 0.3 : 0.0; };
+  const auto settling = [](double t) { return t < 9.0 ? 0.1 * t : 0.9; };
   BOOST_TEST(regime(settling, -0.05) == "tank-treading");
   BOOST_TEST(regime(settling, 0.001) == "unsettled");
-  BOOST_TEST(regime([](double) { return -0.06; }, 0.0) == "tumbling");
-  BOOST_TEST(regime([](double t) { return 0.05 * std::sin(2.0 * t); }, 0.05) == "trembling");
-  BOOST_TEST(regime([](double t) { return 0.1 * std::exp(-t / 10.0); }, 0.05) == "unsettled");
+  BOOST_TEST(regime([](double t) { return -0.06 * t; }, 0.01) == "tumbling");
+  BOOST_TEST(regime([](double t) { return 0.03 * std::cos(2.0 * t); }, 0.05) == "trembling");
+  BOOST_TEST(regime([](double t) { return std::exp(-t / 10.0); }, 0.05) == "unsettled");
   BOOST_TEST(regime([](double) { return 0.0; }, 0.0) == "");
 }
 

@@ -75,7 +75,7 @@ class Killer {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(sudden_end, *boost::unit_test::label("slow"))
+BOOST_AUTO_TEST_SUITE(sudden_end, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
 BOOST_AUTO_TEST_CASE(fixed_steps_lose_nothing_and_reproduce_every_bit) {
   Killer(quick_scene()).kill((2 * wanted_kills() + 2) / 3);
