@@ -4,7 +4,7 @@
 
 #include "tests/app/reference_run.hpp"
 
-BOOST_AUTO_TEST_SUITE(resume)
+BOOST_AUTO_TEST_SUITE(resume, *boost::unit_test::label("slow"))
 
 BOOST_AUTO_TEST_CASE(a_chain_of_fifty_runs_is_one_run) {
   // Every link takes one step of 0.25 and ends; its end is a snapshot of its own, so histories are compared.
