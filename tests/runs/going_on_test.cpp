@@ -1,9 +1,10 @@
+#include <fmt/format.h>
+
 #include <boost/test/unit_test.hpp>
 #include <chrono>
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bie/files/run_reader.hpp"
@@ -168,13 +169,12 @@ BOOST_AUTO_TEST_CASE(a_run_until_rest_waits_for_its_waveforms) {
 namespace {
 
 /// The history of an elongated vesicle in shear, viscous inside.
-vehd::HistoryTable sheared(const Directory& directory, double viscosity_ratio) {
+vehd::HistoryTable sheared(const Directory& directory, double viscosity_ratio, int order, double end_time) {
   const vehd::Scene scene = vehd::parse_scene(
-      "[shape]\nkind = \"ellipsoid\"\naxes = [1.6, 1.0, 1.0]\n[membrane]\nbending_modulus = 0.1\n"
-      "[fluid]\nviscosity_ratio = " +
-          std::to_string(viscosity_ratio) +
-          "\n[flow]\nkind = \"shear\"\nrate = 1.0\n[numerics]\ndegree = 8\ndt = 0.1\ntime_order = 4\nend_time = 24.0\n"
-          "[output]\nevery = 24.0\n",
+      fmt::format("[shape]\nkind = \"ellipsoid\"\naxes = [1.6, 1.0, 1.0]\n[membrane]\nbending_modulus = 0.1\n[fluid]\n"
+                  "viscosity_ratio = {}\n[flow]\nkind = \"shear\"\nrate = 1.0\n[numerics]\ndegree = 8\ndt = 0.1\n"
+                  "time_order = {}\nend_time = {}\n[output]\nevery = {}\n",
+                  viscosity_ratio, order, end_time, end_time),
       "scene.toml", ".");
   vehd::Interruption interruption;
   BOOST_TEST(vehd::simulate({scene, directory.paths, {}}, interruption).completed);
@@ -184,10 +184,18 @@ vehd::HistoryTable sheared(const Directory& directory, double viscosity_ratio) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_viscous_vesicle_tumbles_where_another_one_tank_treads) {
-  for (const auto& [ratio, regime] : {std::pair{1.0, "tank-treading"}, {14.0, "tumbling"}}) {
+  struct Case {
+    double viscosity_ratio;
+    int order;
+    double end_time;
+    std::string regime;
+    double
+        largest_difference;  // degrees: that of first-order steps, which leave a steady shape a velocity, and of rows
+  };
+  for (const Case& one : {Case{1.0, 4, 12.0, "tank-treading", 0.1}, Case{14.0, 1, 24.0, "tumbling", 3.0}}) {
     const Directory directory;
-    const vehd::HistoryTable history = sheared(directory, ratio);
-    BOOST_TEST(vehd::regime_of(history, vehd::OutputUnits()) == regime);
+    const vehd::HistoryTable history = sheared(directory, one.viscosity_ratio, one.order, one.end_time);
+    BOOST_TEST(vehd::regime_of(history, vehd::OutputUnits()) == one.regime);
     // The shape turns from z to x, against the inclination, which is the same after half a revolution.
     const auto& times = history.column("time");
     const auto& tumbling = history.column("tumbling_frequency");
@@ -197,7 +205,7 @@ BOOST_AUTO_TEST_CASE(a_viscous_vesicle_tumbles_where_another_one_tank_treads) {
       turned += 180.0 * (times[i] - times[i - 1]) * (tumbling[i] + tumbling[i - 1]);
     }
     const double left = inclination.back() - inclination.front() + turned;
-    BOOST_TEST(std::abs(std::remainder(left, 180.0)) < 0.2);
+    BOOST_TEST(std::abs(std::remainder(left, 180.0)) < one.largest_difference);
   }
 }
 
