@@ -22,10 +22,10 @@ namespace {
 void end_at_data(Scene& scene, const Experiment& experiment, const DataOfRun& of_run) {
   const double second = scene.units ? si_scale(scene.units, "time") : 1.0;
   for (const std::size_t i : of_run.data) scene.output.times.push_back(experiment.data[i].time / second);
-  std::ranges::sort(scene.output.times);
-  const auto repeated = std::ranges::unique(scene.output.times);
-  scene.output.times.erase(repeated.begin(), repeated.end());
-  scene.numerics.end_time = scene.output.times.back();
+  std::vector<double>& times = scene.output.times;
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  scene.numerics.end_time = times.back();
   scene.numerics.until = RunsUntil::end_time;
 }
 
