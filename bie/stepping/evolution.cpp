@@ -220,13 +220,13 @@ std::vector<Evolution::DenseOutput> Evolution::evaluate_dense_output(const std::
   return output;
 }
 
-StepPlan Evolution::plan_towards(const EventTimes& events, double wanted) const {
+StepPlan Evolution::plan_towards(const EventTimes& events, double dt_next) const {
   EventTimes ends = events;
   // With a tolerance snapshots are taken from within the steps.
   if (adapts()) ends.snapshots = {};
   const std::optional<double> discontinuity = next_discontinuity(setup_.model, state_.time);
   if (discontinuity) ends.discontinuity = std::min(*discontinuity, events.discontinuity.value_or(*discontinuity));
-  return plan_step(state_.time, std::min(wanted, setup_.control.largest), ends);
+  return plan_step(state_.time, std::min(dt_next, setup_.control.largest), ends);
 }
 
 double Evolution::reach(const EventTimes& events) const {
@@ -239,10 +239,10 @@ double Evolution::reach(const EventTimes& events) const {
 StepAttempt Evolution::attempted(const StepPlan& plan, const SnapshotTimes& snapshots,
                                  const StepAttempt& former) const {
   const StepControl& control = setup_.control;
-  if (!(plan.wanted >= control.smallest)) {
+  if (!(plan.dt_next >= control.smallest)) {
     const std::string rounding =
         fmt::format("one of {} is needed, but all below {} are lost in the rounding of end_time",
-                    setup_.time_text(plan.wanted), setup_.time_text(control.smallest));
+                    setup_.time_text(plan.dt_next), setup_.time_text(control.smallest));
     throw ConvergenceError(fmt::format("no acceptable step from time {}: {}", setup_.time_text(state_.time),
                                        former.reason.empty() ? rounding : former.reason));
   }

@@ -110,7 +110,7 @@ class Evolution {
   [[nodiscard]] bool adapts() const { return setup_.control.tolerance > 0.0; }
   [[nodiscard]] int lowest_order() const;
   [[nodiscard]] double truncation_target() const;
-  [[nodiscard]] StepPlan plan_towards(const EventTimes& events, double wanted) const;
+  [[nodiscard]] StepPlan plan_towards(const EventTimes& events, double dt_next) const;
   void expect_growth(double end);
   [[nodiscard]] bool resolves(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] int order_of_gap(const SmallestGap& gap, std::size_t vesicle) const;

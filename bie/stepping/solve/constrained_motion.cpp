@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -79,7 +78,7 @@ class FreeArea {
   FreeArea(const Undulations& undulations, double area) : law_(undulations), tension_(law_.tension(area)) {}
 
   /// The area at the current mean tension.
-  [[nodiscard]] double wanted() const { return law_.area(tension_); }
+  [[nodiscard]] double target() const { return law_.area(tension_); }
 
   /// Uniform tension to add so that area and mean tension satisfy the law.
   /// @param area      without it
@@ -166,7 +165,7 @@ class Iteration {
     strain_ = stretch_before_.array() * stretch - 1.0;
     weighted_strain_ = membrane.weighted(Vector((1.0 + to_take_back_.array()) * stretch - 1.0));
     errors_.volume = (after_.volume + arrival_volume_) / context_.state.reference_volume - 1.0;
-    errors_.area = inextensible() ? (after_.area + arrival_area_) / wanted_area() - 1.0 : 0.0;
+    errors_.area = inextensible() ? (after_.area + arrival_area_) / target_area() - 1.0 : 0.0;
     if (pass_ == 0) motion_.raw_area = errors_.area;
     // A tension of degree p corrects only degrees up to p, and degree 0 is the error of the area.
     errors_.strain = inextensible() ? weighted_strain_.tail(weighted_strain_.size() - 1).norm() / area_ : 0.0;
@@ -189,7 +188,7 @@ class Iteration {
     motion_.arrival_shift =
         (motion_.material.position - before_arrival_).norm() / std::sqrt(context_.state.reference_area);
     errors_.volume = there.volume / context_.state.reference_volume - 1.0;
-    errors_.area = inextensible() ? there.area / wanted_area() - 1.0 : 0.0;
+    errors_.area = inextensible() ? there.area / target_area() - 1.0 : 0.0;
     return errors_.of_constraint() <= settings.constraint_tolerance;
   }
 
@@ -198,7 +197,7 @@ class Iteration {
     const double push = -errors_.volume * context_.state.reference_volume / (area_ * dt_);
     if (inextensible()) {
       // Degree 0 is the error of the area itself, without the truncation of the strain field.
-      weighted_strain_[0] = errors_.area * wanted_area() / std::sqrt(4.0 * std::numbers::pi);
+      weighted_strain_[0] = errors_.area * target_area() / coefficient_of_one;
       rhs_.tension = -weighted_strain_ / dt_ - push * normal_divergence_;
     }
     // The norm of the solve weighs curvature and strain together, high degrees least. With a loose tolerance the
@@ -234,7 +233,7 @@ class Iteration {
 
  private:
   [[nodiscard]] const SphereTransform& fine() const { return context_.membrane.fine; }
-  [[nodiscard]] double wanted_area() const { return free_area_ ? free_area_->wanted() : context_.state.reference_area; }
+  [[nodiscard]] double target_area() const { return free_area_ ? free_area_->target() : context_.state.reference_area; }
   /// Rate of change of the area under a velocity.
   [[nodiscard]] double growth(const Matrix& velocity) const { return area_ * dilation(context_.membrane, velocity); }
   void add(double factor, const Matrix& velocity, const FlowScalars& unknowns) {

@@ -61,16 +61,16 @@ double first_step(const StepControl& control, int time_order, const Model& model
   return rate > 0.0 ? std::min(share / rate, control.largest) : control.largest;
 }
 
-StepPlan plan_step(double time, double wanted, const EventTimes& events) {
-  StepPlan plan{.wanted = wanted};
+StepPlan plan_step(double time, double dt_next, const EventTimes& events) {
+  StepPlan plan{.dt_next = dt_next};
   plan.event_time = events.snapshots.next(time, events.end_time).value_or(events.end_time);
   // A discontinuity that differs from a snapshot only by rounding counts as that snapshot.
-  if (events.discontinuity && *events.discontinuity < plan.event_time - step_rounding * wanted) {
+  if (events.discontinuity && *events.discontinuity < plan.event_time - step_rounding * dt_next) {
     plan.event_time = *events.discontinuity;
     plan.is_snapshot = false;
   }
   const double distance = plan.event_time - time;
-  const double n_steps = std::fmax(1.0, std::ceil(distance / wanted - step_rounding));
+  const double n_steps = std::fmax(1.0, std::ceil(distance / dt_next - step_rounding));
   plan.dt = distance / n_steps;
   plan.reaches_event = n_steps == 1.0;
   return plan;
@@ -101,13 +101,13 @@ double smaller_size(const StepAttempt& rejected) {
 }
 
 void set_next_size(const StepControl& control, const State& start, const StepPlan& plan, StepAttempt& accepted) {
-  double next = accepted.rejected == 0 ? 2.0 * plan.wanted : plan.wanted;
+  double next = accepted.rejected == 0 ? 2.0 * plan.dt_next : plan.dt_next;
   double found = 0.0;
   if (control.tolerance > 0.0) {
     found = accepted.dt * accepted.factor;
     const double trend = start.dt_found > 0.0 ? std::min(1.0, found / start.dt_found) : 1.0;
     // A step cut short by an event is no evidence against the size planned before.
-    next = std::max(trend * found, found > accepted.dt ? plan.wanted : 0.0);
+    next = std::max(trend * found, found > accepted.dt ? plan.dt_next : 0.0);
   }
   accepted.state.dt_next = std::min(control.largest, next);
   accepted.state.dt_found = found;

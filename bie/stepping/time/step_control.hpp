@@ -26,17 +26,17 @@ double first_step(const StepControl& control, int time_order, const Model& model
 
 /// Size and end of the next step.
 struct StepPlan {
-  double wanted = 0.0;         ///< its size if there were no events
+  double dt_next = 0.0;        ///< proposed size: that of a step without events
   double dt = 0.0;             ///< its size
   double event_time = 0.0;     ///< next snapshot, discontinuity or the end
   bool reaches_event = false;  ///< the step ends at event_time
   bool is_snapshot = true;     ///< a snapshot is due at event_time
 };
 
-/// Divides the time to the next event into equal steps no longer than `wanted`, so that no tiny step remains. A
+/// Divides the time to the next event into equal steps no longer than `dt_next`, so that no tiny step remains. A
 /// remainder within 1e-9 of a whole number of steps counts as whole.
 /// Accuracy: steps end on every event to rounding (tests/stepping/time/step_plan_test.cpp)
-StepPlan plan_step(double time, double wanted, const EventTimes& events);
+StepPlan plan_step(double time, double dt_next, const EventTimes& events);
 
 /// Step size with the allowed error, less a margin, over the present size, for an error proportional to dt^power.
 /// @param excess  error over the allowed error

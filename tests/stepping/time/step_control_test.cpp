@@ -114,16 +114,16 @@ BOOST_AUTO_TEST_CASE(size_of_fixed_steps_doubles_back_to_the_nominal_one) {
   start.dt_next = 0.02;
   StepAttempt accepted;
   accepted.dt = 0.02;
-  set_next_size(control, start, {.wanted = 0.02, .dt = 0.02}, accepted);
+  set_next_size(control, start, {.dt_next = 0.02, .dt = 0.02}, accepted);
   BOOST_TEST(accepted.state.dt_next == 0.04);
-  set_next_size(control, start, {.wanted = 0.05, .dt = 0.05}, accepted);
+  set_next_size(control, start, {.dt_next = 0.05, .dt = 0.05}, accepted);
   BOOST_TEST(accepted.state.dt_next == 0.08);
   // One that an event cuts short does not shorten those that follow.
   accepted.dt = 0.003;
-  set_next_size(control, start, {.wanted = 0.08, .dt = 0.003}, accepted);
+  set_next_size(control, start, {.dt_next = 0.08, .dt = 0.003}, accepted);
   BOOST_TEST(accepted.state.dt_next == 0.08);
   accepted.rejected = 1;
-  set_next_size(control, start, {.wanted = 0.04, .dt = 0.04}, accepted);
+  set_next_size(control, start, {.dt_next = 0.04, .dt = 0.04}, accepted);
   BOOST_TEST(accepted.state.dt_next == 0.04);
 }
 
@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(sizes_that_fall_go_on_falling) {
   const auto next = [&](double dt_found, double factor) {
     start.dt_found = dt_found;
     accepted.factor = factor;
-    set_next_size(control, start, {.wanted = 0.03, .dt = 0.02}, accepted);
+    set_next_size(control, start, {.dt_next = 0.03, .dt = 0.02}, accepted);
     BOOST_TEST(accepted.state.dt_found == factor * 0.02);
     return accepted.state.dt_next;
   };
