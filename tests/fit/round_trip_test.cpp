@@ -4,7 +4,7 @@
 #include "bie/support/thread_count.hpp"
 #include "tests/fit/fit_folder.hpp"
 
-BOOST_AUTO_TEST_SUITE(fit_round_trips, *boost::unit_test::label("slow"))
+BOOST_AUTO_TEST_SUITE(fit_round_trips, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
 namespace {
 
