@@ -1,17 +1,17 @@
-# Read by ctest itself, not when the build is configured: a new suite is an entry as soon as it is compiled.
+# Read by ctest itself, not when the build is configured: a new suite becomes an entry as soon as it is compiled.
 cmake_policy(VERSION 3.25)
 
 # Every suite of a test program becomes an entry MODULE/SUITE. Its labels are the given ones and those of the suite in
-# its source: BOOST_AUTO_TEST_SUITE(name, *boost::unit_test::label("slow")). Limits of time only stop what hangs, on any
-# machine: about ten times what suites take, times SLOWER. Suites that are slow start first. Each has one thread, unless
-# OMP_NUM_THREADS says otherwise, so that as many can run at once as there are processors; one that is labelled "alone"
-# has them all.
+# its source: BOOST_AUTO_TEST_SUITE(name, *boost::unit_test::label("slow")). Time limits only stop tests that hang, on
+# any machine: about ten times the duration of a suite, times SLOWER. Slow suites start first. Each has one thread,
+# unless OMP_NUM_THREADS says otherwise, so that as many can run at once as there are processors; one that is labelled
+# "alone" has them all.
 #
-# Freed memory is kept, as the program keeps it (keep_freed_memory): giving it back and taking it anew was a quarter of the
-# time. Threads wait as those of the program do (main.cpp), which would start itself anew to see to that: half of the time
-# of tests that start it often. What is installed starts without (installed/).
+# Freed memory is kept, as in the program (keep_freed_memory): releasing and reallocating it took a quarter of the time.
+# Threads wait as those of the program do (main.cpp); otherwise it would restart itself to set this, which took half of
+# the time of tests that start it often. Installed programs are tested without these settings (installed/).
 #
-# With OTHER_LIBRARIES, a folder of numerical libraries for another instruction set, each suite that is neither labelled
+# With OTHER_LIBRARIES, a folder of numerical libraries for another instruction set, each suite that is labelled neither
 # "fem" nor "once" is run with them as well, as other/MODULE/SUITE.
 function(register_suites)
   cmake_parse_arguments(tests "" "PROGRAM;MODULE;FOLDER;SLOWER;OTHER_LIBRARIES" "LABELS;ENVIRONMENT" ${ARGN})
@@ -22,7 +22,7 @@ function(register_suites)
   endif()
   execute_process(COMMAND "${tests_PROGRAM}" --list_content=DOT OUTPUT_VARIABLE tree ERROR_VARIABLE tree
                   RESULT_VARIABLE status)
-  # A node is one line, and the next names its parent: the root is tu1. These signs would disturb lists of CMake.
+  # Each node is one line, and the next line names its parent; the root is tu1. These signs would break CMake lists.
   string(REGEX REPLACE "[][;]" "" tree "${tree}")
   string(REGEX MATCHALL "label=\"[^\"|]+\\|[^\"]*\"\ntu1 -> " suites "${tree}")
   if(NOT status EQUAL 0 OR NOT suites)

@@ -6,12 +6,12 @@
 #include "bie/scene/units.hpp"
 #include "tests/app/sweep_folder.hpp"
 
-// The phase diagram of docs/sweeps/ac_shapes.toml against the sphere's drive, whose sign is known in closed form.
+// Compares the phase diagram of docs/sweeps/ac_shapes.toml with the sphere's drive, whose sign is known in closed form.
 BOOST_AUTO_TEST_SUITE(ac_border, *boost::unit_test::label("once"))
 
 namespace {
 
-/// Q of the sphere of docs/sweeps/ac_scene.toml. @param conductivity  inside, S/m
+/// Drive Q of the sphere of docs/sweeps/ac_scene.toml. @param conductivity  of the interior, S/m
 double drive(double frequency, double conductivity) {
   constexpr double permittivity = 80.0 * 8.8541878128e-12;
   vehd::ElectricParameters electric{{0.0, 0.0, 1e4}, conductivity, 1e-3, permittivity, 1.0};
@@ -22,7 +22,7 @@ double drive(double frequency, double conductivity) {
 
 double number(const std::string& text) { return vehd::parse_quantity(text)->number; }
 
-/// Frequencies over which one cell of the diagram reaches.
+/// Ratio of the frequencies at both ends of one cell of the diagram.
 const double one_cell = std::pow(1e6, 1.0 / 19.0);
 
 }  // namespace
@@ -41,8 +41,8 @@ BOOST_AUTO_TEST_CASE(the_drawn_curve_is_where_a_sphere_changes_its_direction) {
 }
 
 BOOST_AUTO_TEST_CASE(vesicles_change_their_direction_within_a_cell_of_it) {
-  // Zeros of Q for 1 and 5 uS/cm, exact to their last digit (drive above, and tests/physics/averaged_field_test.cpp).
-  // Shapes need no longer than this to show where they go.
+  // Zeros of Q for 1 and 5 uS/cm, correct to their last digit (drive above, and tests/physics/averaged_field_test.cpp).
+  // This end time suffices to show the direction in which the shapes deform.
   const SweepWork work(
       std::regex_replace(file_text(VEHD_SOURCE_DIR "/docs/sweeps/ac_scene.toml"), std::regex("2.4 s"), "0.8 s"));
   std::string frequencies, conductivities;

@@ -43,7 +43,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 const std::vector<std::string> kInvariant = {"time",   "area",       "volume",     "bending_energy_scaled",
                                              "Vm_max", "strain_max", "area_drift", "tension_integral"};
 
-/// Solves stop at 1e-9 of what they solve for, and where rounding differs at another iteration; twelve steps add up.
+/// Solves stop at a relative tolerance of 1e-9, and rounding may change the last iteration; twelve steps add up.
 constexpr double kSolvers = 1e-7;
 
 /// Values of a vector field at the poles of the three axes, [x, y, z directions x components].
@@ -71,14 +71,14 @@ BOOST_AUTO_TEST_CASE(scene_about_x_is_the_scene_about_z_with_coordinates_permute
     BOOST_TEST(largest_difference(upright.column(before), lying.column(after)) < kSolvers, after);
   }
   BOOST_TEST(std::abs(lying.column("inclination_deg").back()) < kSolvers);
-  // The field is normal to the z axis, so that its potential vanishes there.
+  // The field is normal to the z axis, so V_m vanishes there.
   BOOST_TEST(std::abs(lying.column("Vm_north").back()) < 1e-12);
 
   const vehd::Hdf5Reader file_z(z + "/run.h5"), file_x(x + "/run.h5");
   const std::string snapshot = "/snapshots/000006/coefficients/";
   for (const char* name : {"x", "velocity", "force_bending", "force_tension", "force_electric"}) {
     const Matrix a = on_the_axes(file_z.matrix(snapshot + name)), b = on_the_axes(file_x.matrix(snapshot + name));
-    // Forces are fourth derivatives of x, and what rounding does to x is larger in them by three powers of the degree.
+    // Forces are fourth derivatives of x, which amplify its rounding errors by three powers of the degree.
     const double bound = std::string(name).starts_with("force") ? 100.0 * kSolvers : kSolvers;
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
@@ -106,8 +106,8 @@ BOOST_AUTO_TEST_CASE(reduced_run_about_x_is_the_full_run_and_needs_fewer_kernels
     const auto summary = json_of(run + "/summary.json");
     return summary["kernel_evaluations"]["stokes_single"].get<double>();
   };
-  // Order 6: all 7 x 14 targets with all nodes against half the nodes of one longitude with the 4 latitudes that the
-  // mirror leaves.
+  // Order 6: the full solver evaluates 7 x 14 targets with all nodes; the reduced one evaluates 4 targets, those of one
+  // longitude that the mirror symmetry leaves, with half of the nodes.
   BOOST_TEST(evaluations(full) / evaluations(reduced) == 98.0 / 2.0, boost::test_tools::tolerance(1e-12));
 }
 

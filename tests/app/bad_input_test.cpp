@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Every case of wrong input: exit code 1, exactly one line on standard error, nothing on standard output.
+/// Wrong input must give exit code 1, exactly one line on standard error, and nothing on standard output.
 void check_refused(const std::vector<std::string>& arguments, const std::string& message) {
   const ProgramResult result = run_vehd(arguments);
   BOOST_TEST(result.exit_code == 1);
@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(unwritable_directory) {
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml", quick_scene());
   write_text(directory / "file", "");
-  // A file in the way is refused for every user; permissions do not bind root.
+  // A file with the name of the output folder stops every user; permissions would not stop root.
   check_refused({"run", directory / "scene.toml", "-o", directory / "file"},
                 directory / "file" + ": cannot be used as output directory: Not a directory");
   check_refused({"run", directory / "scene.toml", "-o", directory / "file/out"},

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One bench, run in a folder of its own.
+/// One bench, run in its own folder.
 struct Bench {
   TemporaryDirectory directory;
   std::string name;
@@ -60,7 +60,7 @@ void files_say_what_they_hold_for(const Bench& bench) {
   BOOST_TEST(fs::file_size(bench.file(".png")) > 10000u);
 }
 
-/// Rows of which a key has a value.
+/// Rows in which a key has the given value.
 std::vector<nlohmann::json> rows_with(const Bench& bench, const std::string& key, const nlohmann::json& value) {
   std::vector<nlohmann::json> rows;
   for (const auto& row : bench.json["rows"]) {
@@ -71,7 +71,7 @@ std::vector<nlohmann::json> rows_with(const Bench& bench, const std::string& key
 
 double number(const nlohmann::json& row, const std::string& key) { return row[key].get<double>(); }
 
-/// The pages and scenes as in the source tree, scenes small.
+/// Copies the pages and scenes, arranged as in the source tree, with small scenes.
 void copy_docs(const fs::path& to) {
   const fs::path from = fs::path(VEHD_SOURCE_DIR) / "docs";
   fs::create_directories(to / "scenes");
@@ -98,14 +98,14 @@ BOOST_AUTO_TEST_CASE(errors_in_space_fall_with_the_degree) {
   for (const char* error : {"error_q", "error_force", "error_velocity"}) {
     BOOST_TEST(number(rows[1], error) < 0.2 * number(rows[0], error), error);
   }
-  // docs/accuracy.md at p = 12.
+  // Bounds from docs/accuracy.md at p = 12.
   BOOST_TEST(number(rows[1], "error_q") < 1e-3);
   BOOST_TEST(number(rows[1], "error_force") < 6e-3);
   BOOST_TEST(number(rows[1], "error_velocity") < 1e-8);
   BOOST_TEST(number(rows[1], "error_velocity") > 1e-12);
   BOOST_TEST(number(rows[1], "paper_error_q") == 2.5e-3);
 
-  // f_E is not right to 1e-7 at twice the largest degree, the velocity is right to 1e-10.
+  // At twice the largest degree f_E has not converged to 1e-7, whereas the velocity has converged to 1e-10.
   const auto& equal = bench.json["equal"];
   BOOST_REQUIRE(equal.size() == 6);
   BOOST_TEST(equal[1]["order"].is_null());
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(parts_of_a_step_add_up_to_it) {
       if (part && key != "seconds_step") sum += value.get<double>();
     }
     BOOST_TEST(sum == number(row, "seconds_step"), boost::test_tools::tolerance(1e-9));
-    // Negative where a part within another counted twice.
+    // Negative if a part nested in another were counted twice.
     BOOST_TEST(number(row, "seconds_other") >= 0.0);
     BOOST_TEST(number(row, "seconds_operator_assembly") > 0.0);
     BOOST_TEST(number(row, "seconds_electric") > 0.0);
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(parts_of_a_step_add_up_to_it) {
     BOOST_TEST(
         number(row, "peak_fraction_operator_assembly") * peak * number(row, "seconds_operator_assembly") == operations,
         boost::test_tools::tolerance(1e-9));
-    // Both are counted in pages, from beginnings to ends of their own.
+    // Both are measured in pages, over different intervals.
     constexpr double kPages = 4 * 4096.0;
     BOOST_TEST(number(row, "bytes_step") >= number(row, "bytes_operator_assembly") - kPages);
   }
@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(symmetry_does_not_change_the_result) {
     BOOST_TEST(number(row, "ratio") == number(row, "seconds_full") / number(row, "seconds"),
                boost::test_tools::tolerance(1e-6));
     BOOST_TEST(number(row, "difference") < 1e-9 * number(row, "steps"));
-    // An ellipsoid with one axis: the full solver has whole circles of targets where the other has one target.
+    // An axisymmetric ellipsoid: the full solver has a whole circle of targets for each target of the reduced one.
     BOOST_TEST(number(row, "kernel_ratio") > number(row, "order"));
   }
 }
@@ -208,9 +208,9 @@ BOOST_AUTO_TEST_CASE(errors_in_time_fall_with_the_step_as_the_order_says) {
   BOOST_TEST(std::log2(number(first[1], "error") / number(first[2], "error")) < 1.2);
   BOOST_TEST(number(third[2], "error") < 0.1 * number(first[2], "error"));
   BOOST_TEST(number(third[0], "steps") == 4);
-  // Three values, the order and the limit, of either integrator.
+  // For each of the two integrators: three values, the order and the limit.
   BOOST_TEST(bench.json["values"].size() == 10);
-  // Seconds of so short runs say nothing; errors that fall have a digit each.
+  // Times of such short runs are meaningless, but each further digit must multiply them by more than 1.
   for (const auto& row : bench.json["digits"]) {
     BOOST_TEST(number(row, "error_smallest") < number(row, "error_largest"));
     BOOST_TEST(number(row, "seconds_of_a_digit") > 1.0);
@@ -277,7 +277,7 @@ BOOST_AUTO_TEST_CASE(one_command_renews_every_table_and_picture_of_the_pages) {
   BOOST_TEST(extra.find("old") == std::string::npos);
   BOOST_TEST(extra.ends_with("after\n<!-- table unknown -->\nkept\n<!-- end of table -->\n"), extra);
   const bool methods = static_cast<bool>(finite_elements_are_built());
-  // Whatever the pages ask for is there, but for what was made up and what is not built.
+  // Every table of the pages is renewed, except the invented one and that of the finite elements if they are not built.
   const std::string left =
       methods ? "; tables left as they were: unknown\n" : "; tables left as they were: methods, unknown\n";
   BOOST_TEST(result.output.ends_with(left), result.output);
@@ -292,7 +292,7 @@ BOOST_AUTO_TEST_CASE(one_command_renews_every_table_and_picture_of_the_pages) {
   BOOST_TEST(file_text(docs / "extra.md").find("old") == std::string::npos);
   BOOST_TEST(again.output.find("== parts") == std::string::npos);
 
-  // Every picture that a page shows is new, or one of those that commands of pages make.
+  // Every picture shown on a page is newly drawn here or made by a command of a page.
   std::vector<std::string> made;
   for (const fs::path& page : vehd::pages_of(docs)) {
     for (std::string& picture : vehd::pictures_of(vehd::commands_of_page(page))) made.push_back(std::move(picture));
@@ -309,7 +309,7 @@ BOOST_AUTO_TEST_CASE(one_command_renews_every_table_and_picture_of_the_pages) {
   }
 }
 
-// A page, its commands and a picture that one of them puts into its place where no reader sees it.
+// A page with commands and a picture; a command that is hidden from the reader copies the picture into place.
 BOOST_AUTO_TEST_CASE(pages_make_their_own_pictures) {
   const TemporaryDirectory directory;
   const fs::path docs = directory / "docs";

@@ -9,7 +9,7 @@
 
 namespace {
 
-/// A run in one directory whose scene is edited between its sessions.
+/// A run in one directory whose scene is edited between the sessions.
 struct EditedRun {
   TemporaryDirectory directory;
   std::string scene = directory / "scene.toml";
@@ -18,7 +18,7 @@ struct EditedRun {
 
   explicit EditedRun(std::string start) : text(std::move(start)) {}
 
-  /// Puts a value, or a line without one, in the place of a key.
+  /// Replaces the value of a key, wherever a line sets it.
   void set(const std::string& key, const std::string& value) {
     text = std::regex_replace(text, std::regex("\n" + key + " = [^\n]*"), "\n" + key + " = " + value);
   }
@@ -34,7 +34,7 @@ struct EditedRun {
   [[nodiscard]] nlohmann::json summary() const { return json_of(output + "/summary.json"); }
 };
 
-/// Degrees of the rows of a history, each as often as it begins.
+/// Degrees in the rows of a history, with consecutive repetitions removed.
 std::vector<int> degrees(const std::string& history) {
   std::istringstream lines(file_text(history));
   std::string line;
@@ -118,12 +118,12 @@ BOOST_AUTO_TEST_CASE(degree_may_rise_and_fall_and_no_snapshot_loses_a_digit) {
   run.finish();
   BOOST_TEST(degrees(run.output + "/history.csv") == (std::vector<int>{6, 9, 5}), boost::test_tools::per_element());
 
-  // One grid for all of them, and what reads a run reads this one.
+  // All snapshots share one grid, and the readers of runs accept the file.
   const vehd::Hdf5Reader file(run.output + "/run.h5");
   BOOST_TEST(file.vector("/grid/theta").size() == 10);
   for (const std::string& name : file.members("/snapshots")) {
     BOOST_TEST(file.matrix("/snapshots/" + name + "/x").rows() == 10 * 20);
-    // Each is intact and keeps the degree that it was solved in.
+    // Each snapshot is intact and keeps the degree in which it was solved.
     const vehd::RunReader run_file(run.output + "/run.h5");
     const vehd::RunSnapshot stored = run_file.snapshot(std::stoul(name));
     const double time = stored.time();
@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(other_physics_are_refused_by_name_and_line) {
   };
   const std::string but = ", but the run in " + run.output + " has ";
   refused("bending_modulus", "0.2", ":5: \"membrane.bending_modulus\" is 0.2" + but + "0.1; ");
-  // A key that is left out is looked for in its table, a table that is left out in the whole file.
+  // A key that the scene of the run leaves out has its default value; with its whole table left out it is absent.
   refused("conductance", "5.0\ncapacitance = 2.0", ":7: \"membrane.capacitance\" is 2.0" + but + "1.0; ");
   refused("axes", "[1.0, 1.0, 1.25]", ":3: \"shape.axes\" is [1.0, 1.0, 1.25]" + but + "[1.0, 1.0, 1.5]; ");
   refused("every", "0.5\n[flow]\nkind = \"shear\"\nrate = 2.0", ":18: \"flow.kind\" is \"shear\"" + but + "absent; ");

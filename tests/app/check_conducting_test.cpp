@@ -1,13 +1,12 @@
 #include "tests/app/check_damages.hpp"
 
-// The finite elements are one process for each processor.
+// The finite elements run one process on each processor.
 BOOST_AUTO_TEST_SUITE(check_conducting, *boost::unit_test::precondition(finite_elements_are_built) *
                                             boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
 namespace {
 
-/// A shape without symmetry that stands still, whose pores open, with a capacitance and a pump that differ from place
-/// to place.
+/// An immobile shape without symmetry, with opening pores and with spatially varying capacitance and pump current.
 const std::string scene_text =
     "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
     "[membrane]\nmobile = false\ncapacitance = 0.5\nconductance = 0.3\n"

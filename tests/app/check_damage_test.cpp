@@ -9,7 +9,7 @@
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
 
-// The finite elements are one process for each processor.
+// The finite elements run one process on each processor.
 BOOST_AUTO_TEST_SUITE(check_damage, *boost::unit_test::precondition(finite_elements_are_built) *
                                         boost::unit_test::label("slow") * boost::unit_test::label("extended") *
                                         boost::unit_test::label("once"))
@@ -22,7 +22,7 @@ using vehd::Index;
 using vehd::Matrix;
 using vehd::Vector;
 
-/// Everything on, nothing symmetric.
+/// A scene with all effects and no symmetry.
 std::string scene_text(const std::string& axes, const std::string& membrane, const std::string& fluid) {
   return "[shape]\nkind = 'ellipsoid'\naxes = " + axes +
          "\nrotation = [0.3, 1.0, 0.2, 35.0]\ncentre = [100.0, 0.0, 50.0]\n"
@@ -33,7 +33,7 @@ std::string scene_text(const std::string& axes, const std::string& membrane, con
          "[numerics]\norder = 12\ndt = 0.1\nend_time = 0.0\n";
 }
 
-/// At both orders.
+/// Changes the fields of both orders.
 void change_both(CheckNumbers& numbers, const std::function<void(CheckFields&)>& change) {
   change(numbers.bie.front());
   change(numbers.high.front());
@@ -42,20 +42,20 @@ void change_both(CheckNumbers& numbers, const std::function<void(CheckFields&)>&
 struct Damage {
   std::string name;
   std::function<void(CheckNumbers&)> apply;
-  std::string row;  ///< "fields/q": one that has to see it
+  std::string row;  ///< "fields/q": a row that must detect the damage
 };
 
 CheckNumbers right_numbers(const std::string& scene) {
   FrozenState frozen = vehd::read_frozen_state({"scene.toml", {}, scene}, std::nullopt);
   frozen.source = "scene";
-  // A membrane that charges, so that its current says something.
+  // A membrane that is charging, so that its current is not zero.
   frozen.state.vesicles.front().transmembrane_potential *= 0.6;
   CheckNumbers numbers(vehd::check_problem(frozen), 12, 18);
   numbers.store_found();
   return {vehd::check_problem(numbers.problem.frozen), 12, 18};
 }
 
-/// A field that both orders find wrongly in the same way, as code with a wrong factor would.
+/// Multiplies a field by the same factor at both orders, as code with a wrong factor would.
 template <typename Values>
 void add_field(std::vector<Damage>& damages, const std::string& name, Values CheckFields::*field,
                const std::string& row, const std::vector<double>& factors) {
@@ -87,7 +87,7 @@ void add_coefficient(std::vector<Damage>& damages, const std::string& name, cons
                      row});
 }
 
-/// Both methods' values at the sample points of one place, x factor.
+/// Multiplies the values of both orders at the sample points of one location by a factor.
 void add_samples(std::vector<Damage>& damages, const std::string& place, double electric, double flow) {
   const auto add = [&](const std::string& field, const auto& scale) {
     damages.push_back({field + " " + place,
@@ -106,7 +106,7 @@ void add_samples(std::vector<Damage>& damages, const std::string& place, double 
   add("velocity", [=](CheckFields& f, Index i) { f.sample_velocity.row(i) *= flow; });
 }
 
-/// Weight and spontaneous curvature times factors.
+/// Multiplies weight and spontaneous curvature by factors.
 void scale_effects(FrozenState& state, double weight, double curvature) {
   for (auto& effect : state.model.vesicles.front().effects) {
     if (const auto* gravity = dynamic_cast<const vehd::GravityEffect*>(effect.get())) {
@@ -121,10 +121,10 @@ void scale_effects(FrozenState& state, double weight, double curvature) {
   }
 }
 
-/// How small a damage is tried.
+/// Relative sizes of the damages.
 struct Sizes {
   double flow;         ///< of the flow, and of coefficients
-  double electric;     ///< of the electric fields, which coarse elements find with a digit more
+  double electric;     ///< of the electric fields, which coarse elements compute with one digit more
   double conductance;  ///< of G_m
   double weight;
   double inner_viscosity;  ///< of μ_i, on which v hardly depends
@@ -167,7 +167,7 @@ std::vector<Damage> all_damages(const Sizes& sizes) {
                        stored.velocity += small * swelling * stored.velocity.norm() / swelling.norm();
                      },
                      "stored/surface_divergence"});
-  // The layer alone, with the background flow as it is.
+  // Scales only the layer; the background flow is unchanged.
   damages.push_back({"Stokes layer x 0.95",
                      [](CheckNumbers& numbers) {
                        const Matrix& x = numbers.problem.frozen.state.vesicles.front().position;
@@ -199,7 +199,7 @@ std::vector<Damage> all_damages(const Sizes& sizes) {
     damages.push_back({"order of the run random", [=](CheckNumbers& n) { random(n.bie.front()); }, row});
     damages.push_back({"other order random", [=](CheckNumbers& n) { random(n.high.front()); }, row});
   }
-  // One side of the comparison has another coefficient, or exchanges the sides.
+  // One side of the comparison has another coefficient, or interior and exterior are exchanged.
   add_coefficient(damages, "C_m x 100", "fields/charging_current",
                   [](FrozenState& s) { s.model.vesicles[0].charging.capacitance *= 100.0; });
   add_coefficient(damages, "C_m", "fields/charging_current",
@@ -248,8 +248,8 @@ std::string verdict_of(const nlohmann::json& result, const std::string& row) {
   return result[row.substr(0, slash)][row.substr(slash + 1)]["verdict"];
 }
 
-/// Lets the elements solve once and judge all damages.
-/// @param arguments  of the finite elements
+/// Runs the finite elements once and requires that they notice all damages.
+/// @param arguments  passed to the finite elements
 void require_noticed(const CheckNumbers& right, const std::vector<Damage>& damages,
                      const std::vector<std::string>& arguments) {
   const TemporaryDirectory directory;
@@ -287,7 +287,7 @@ BOOST_AUTO_TEST_CASE(whatever_is_damaged_is_noticed) {
   require_noticed(right, all_damages({1e-2, 2e-3, 5e-2, -1.0, 5e-2}), {"--quick"});
 }
 
-// The elements of a check as it is by itself, on a shape where few degrees are enough.
+// A check with its default elements, on a shape that a low degree resolves.
 BOOST_AUTO_TEST_CASE(a_thousandth_is_noticed_without_haste) {
   const CheckNumbers right = right_numbers(
       scene_text("[1.0, 1.1, 1.2]", "bending_modulus = 3.0\nspontaneous_curvature = -1.5\n",

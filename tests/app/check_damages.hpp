@@ -8,7 +8,7 @@
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/reference_run.hpp"
 
-// Whether the check agrees with a run that stands still, and with none of one that is damaged.
+// Tests that the check agrees with a run whose membrane does not move, and disagrees with every damaged copy of it.
 
 using vehd::CheckFields;
 using vehd::FrozenState;
@@ -16,7 +16,7 @@ using vehd::FrozenState;
 struct Damage {
   std::string name;
   std::function<void(CheckNumbers&)> apply;
-  std::string group, row;  ///< one that has to see it
+  std::string group, row;  ///< a row that must detect the damage
 };
 
 template <typename Values>
@@ -29,7 +29,7 @@ Damage field_by(const std::string& name, Values CheckFields::*field, const std::
           group, row};
 }
 
-/// One side of the comparison has another coefficient, or exchanges the sides.
+/// One side of the comparison has another coefficient, or interior and exterior are exchanged.
 inline Damage state_with(const std::string& name, const std::function<void(FrozenState&)>& change,
                          const std::string& group, const std::string& row) {
   return {name,
@@ -41,7 +41,7 @@ inline Damage state_with(const std::string& name, const std::function<void(Froze
           group, row};
 }
 
-/// Rows of both groups agree, and of each damage the row that has to see it does not.
+/// Requires that the given rows agree, and that each damage makes its row disagree.
 inline void check_and_damage(const FinishedRun& run, const std::string& time, const std::vector<const char*>& fields,
                              const std::vector<const char*>& stored, const std::vector<Damage>& damages) {
   const std::string file = run.output + "/run.h5";

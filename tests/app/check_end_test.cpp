@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds most{120};
 
-/// A check that takes far longer than the test, in a folder by which its processes are known.
+/// A check that takes far longer than the test; its processes are identified by its folder.
 struct LongCheck {
   TemporaryDirectory directory;
   std::vector<std::string> command;
@@ -25,7 +25,7 @@ struct LongCheck {
                "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.2, 1.5]\n[membrane]\nconductance = 5.0\n"
                "[electric]\nfield = [0.0, 0.0, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
                "[numerics]\norder = 8\ndt = 0.1\nend_time = 0.0\n");
-    // What is killed leaves its temporary files behind: here they go with the folder.
+    // Killed processes leave temporary files behind; these are removed with the folder.
     command = {"env", "TMPDIR=" + directory / ""};
     for (const std::string& word :
          vehd_command({"check", directory / "scene.toml", "-o", directory / "out", "--ranks", "2", "--no-plot"})) {
@@ -41,7 +41,7 @@ struct LongCheck {
       if (process == 0) continue;
       const std::string words = file_text(entry.path() / "cmdline");
       std::string name = fs::path(words.substr(0, words.find('\0'))).filename();
-      // So does the mpirun of Open MPI 5 call itself.
+      // The mpirun of Open MPI 5 has this process name.
       if (name == "prterun") name = "mpirun";
       if (name == program && words.find(directory / "out") != std::string::npos) found.push_back(process);
     }
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(time_limit_that_kills_all_it_can_reach_ends_the_finite_elem
   command.insert(command.end(), check.command.begin(), check.command.end());
   RunningProgram program(command);
   BOOST_TEST_REQUIRE(comes_true([&] { return check.is_at_work(); }, most));
-  // What the program timeout does when the time is over, at a moment of our own: it leads the group of the check.
+  // Kills the process group of the check, which the program timeout leads, as timeout does when the time is over.
   const std::vector<pid_t> leader = check.processes("timeout");
   BOOST_TEST_REQUIRE(leader.size() == 1);
   ::kill(-leader.front(), SIGKILL);

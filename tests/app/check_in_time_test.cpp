@@ -17,7 +17,7 @@ using vehd::InTime;
 
 const std::filesystem::path fem_folder = std::filesystem::path(VEHD_PROGRAM).parent_path();
 
-/// A shape without symmetry that stands still while it charges; the field jumps on the way.
+/// An immobile shape without symmetry that is charging; the field jumps within the run.
 const std::string charging_scene =
     "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
     "[membrane]\nmobile = false\ncapacitance = 1.0\nconductance = 0.5\n"
@@ -25,7 +25,7 @@ const std::string charging_scene =
     "[electric.waveform]\nkind = 'pulse'\nduration = 0.6\n"
     "[numerics]\norder = 8\ntime_order = 3\ndt = 0.1\nend_time = 1.0\n[output]\nevery = 0.2\n";
 
-/// What the boundary-integral side hands over about one span.
+/// Data of one time span that the boundary-integral side passes to the finite elements.
 struct Numbers {
   FrozenState end;
   InTime in_time;
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(potential_of_a_run_is_advanced_and_a_percent_is_noticed) {
   const Numbers right = numbers_of(file);
   BOOST_TEST(right.in_time.span.positions.size() == 1U);
   BOOST_TEST(right.in_time.span.field_times.size() == 2U * (vehd::span_intervals + 1));
-  // The steps of the run, from the snapshot on, end where the run did.
+  // The steps of the run, repeated from the snapshot on, end at the V_m of the run.
   const vehd::Vector& stored = right.end.state.vesicles.front().transmembrane_potential;
   BOOST_TEST((right.in_time.at_order - stored).norm() < 1e-3 * stored.norm());
 
@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(potential_of_a_run_is_advanced_and_a_percent_is_noticed) {
   BOOST_TEST(json["in_time"]["begin"].get<double>() == 0.4);
   BOOST_TEST(!json["in_time"]["moves"].get<bool>());
   const double order = json["in_time"]["order_in_time"];
-  // Few steps.
+  // With few steps the measured order is only close to 2.
   BOOST_TEST(order > 1.5);
   BOOST_TEST(order < 2.4);
   BOOST_TEST_REQUIRE(json["further"].size() == damages.size());
@@ -113,8 +113,8 @@ BOOST_AUTO_TEST_CASE(potential_of_a_run_is_advanced_and_a_percent_is_noticed) {
   }
 }
 
-// What finer steps change of V_m on the moving shape falls like the steps of the run, of first order here, and is no
-// sliding of points, which would change V_m at given (θ, φ) alone.
+// The change of V_m under finer steps on the moving shape decreases with the steps of the run, to first order here. It
+// is not an effect of sliding points, which would change V_m only at given (θ, φ).
 BOOST_AUTO_TEST_CASE(steps_of_a_moving_shape_count_as_an_error_of_the_run) {
   const FinishedRun run(
       "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"

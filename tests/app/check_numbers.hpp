@@ -6,10 +6,10 @@
 
 #include "bie/comparison/check_input.hpp"
 
-/// What the boundary-integral side hands over to the finite elements, to be damaged.
+/// Data that the boundary-integral side passes to the finite elements, to be damaged.
 struct CheckNumbers {
   vehd::CheckProblem problem;
-  int order, high_order;  ///< of all vesicles
+  int order, high_order;  ///< for all vesicles
   std::vector<vehd::CheckFields> bie, high;
 
   CheckNumbers(vehd::CheckProblem given, int order_of_state, int other_order)
@@ -17,7 +17,7 @@ struct CheckNumbers {
     solve(problem.frozen);
   }
 
-  /// By what code would find that has the wrong coefficients, data or conditions.
+  /// Computes the fields from this state, as code with wrong coefficients, data or conditions would.
   void solve(const vehd::FrozenState& state) {
     bie = solved(state, order);
     high = solved(state, high_order);
@@ -27,7 +27,7 @@ struct CheckNumbers {
     with_state.frozen = state;
     return vehd::check_fields(with_state, std::vector<int>(problem.forces.size(), degree));
   }
-  /// Makes the numbers of the snapshot those that were found.
+  /// Replaces the numbers of the snapshot by the computed ones.
   void store_found() {
     for (std::size_t a = 0; a < bie.size(); ++a) {
       vehd::VesicleFields& stored = problem.frozen.fields.vesicles[a];

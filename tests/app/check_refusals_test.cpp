@@ -16,7 +16,7 @@ namespace {
 
 const std::filesystem::path elements = finite_element_program();
 
-/// As a program would have written it that computes the field wrongly.
+/// Scales a field of a run and renews its checksums, as if a program had computed the field wrongly.
 void scale_field_of_run(const std::string& path, const std::string& group, const std::string& field, double factor) {
   {
     const vehd::Hdf5Handle file = open_for_damage(path);
@@ -25,7 +25,7 @@ void scale_field_of_run(const std::string& path, const std::string& group, const
     }
   }
   reseal(path, group);
-  // It counts the snapshots as they were.
+  // The checkpoint still refers to the snapshots as they were.
   std::filesystem::remove(std::filesystem::path(path).parent_path() / "checkpoint.h5");
 }
 

@@ -2,13 +2,13 @@
 
 #include "tests/app/check_damages.hpp"
 
-// The finite elements are one process for each processor.
+// The finite elements run one process on each processor.
 BOOST_AUTO_TEST_SUITE(check_relaxing, *boost::unit_test::precondition(finite_elements_are_built) *
                                           boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
 namespace {
 
-/// A shape without symmetry that stands still; the charges of both faces are far from steady when the pulse ends.
+/// An immobile shape without symmetry; the charges on both faces are far from steady when the pulse ends.
 const std::string scene_text =
     "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
     "[membrane]\nmobile = false\ncapacitance = 1.0\nconductance = 0.5\n"

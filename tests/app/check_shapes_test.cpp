@@ -4,14 +4,14 @@
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
 
-// The finite elements are one process for each processor.
+// The finite elements run one process on each processor.
 BOOST_AUTO_TEST_SUITE(check_shapes, *boost::unit_test::precondition(finite_elements_are_built) *
                                         boost::unit_test::label("slow") * boost::unit_test::label("alone") *
                                         boost::unit_test::label("once"))
 
 namespace {
 
-/// Result of a quick check of a scene, by one rank.
+/// Result of a quick check of a scene on one rank.
 nlohmann::json checked(const std::string& scene, const std::vector<std::string>& further) {
   const TemporaryDirectory directory;
   std::vector<std::string> command{
@@ -34,7 +34,7 @@ void require_agreement(const nlohmann::json& json) {
 
 }  // namespace
 
-// Contrasts, spontaneous curvature, weight, an oblique field and a flow without symmetry about a shape without any.
+// Contrasts, spontaneous curvature, weight, an oblique field, and a flow and a shape without symmetry.
 BOOST_AUTO_TEST_CASE(every_row_agrees_where_all_effects_act) {
   const nlohmann::json json = checked("docs/checks/everything.toml", {});
   require_agreement(json);
@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(every_row_agrees_where_all_effects_act) {
   BOOST_TEST(json["from_shape"]["velocity"]["l2"].get<double>() < 1e-3);
 }
 
-// Two bulbs with a neck, at a lower degree than that of the page.
+// Two bulbs joined by a neck, at a lower degree than on the page.
 BOOST_AUTO_TEST_CASE(every_row_of_the_dumbbell_agrees) {
   const nlohmann::json json = checked("docs/checks/dumbbell.toml", {"--set", "numerics.degree=24"});
   require_agreement(json);
@@ -52,8 +52,8 @@ BOOST_AUTO_TEST_CASE(every_row_of_the_dumbbell_agrees) {
   BOOST_TEST(json["from_shape"]["velocity"]["l2"].get<double>() < 1e-2);
 }
 
-// The flow of the change of f_E is solved with fewer digits than that of all forces, and its error counts: it was the
-// larger one where f_E is large.
+// The flow due to the change of f_E is solved with fewer digits than that of all forces. Its error is included: it was
+// the larger of the two if f_E is large.
 BOOST_AUTO_TEST_CASE(velocity_of_own_electric_force_agrees_where_that_force_is_large) {
   const nlohmann::json json = checked("tests/hard/scenes/electric_capillary_1e4.toml", {});
   const nlohmann::json& row = json["fields"]["velocity_own_force"];

@@ -4,15 +4,15 @@
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
 
-// Where much vanishes or is not determined: spheres, whose uniform tension does nothing, and vesicles that are images
-// of one another.
+// Cases in which fields vanish or are not determined: spheres, on which a uniform tension has no effect, and vesicles
+// that are images of one another.
 BOOST_AUTO_TEST_SUITE(check_spheres, *boost::unit_test::precondition(finite_elements_are_built) *
                                          boost::unit_test::label("slow") * boost::unit_test::label("extended") *
                                          boost::unit_test::label("once"))
 
 namespace {
 
-/// Result of a quick check, which has to end with a table.
+/// Result of a quick check, which must end with a table.
 nlohmann::json checked(const std::string& file, const std::string& directory) {
   const ProgramResult result =
       run_vehd({"check", file, "--quick", "--ranks", "1", "-o", directory, "--no-plot", "--json", directory + ".json"});
@@ -21,11 +21,11 @@ nlohmann::json checked(const std::string& file, const std::string& directory) {
   return json_of(directory + ".json");
 }
 
-/// Of one vesicle.
+/// Requires that no row of one vesicle disagrees.
 void require_no_disagreement(const nlohmann::json& vesicle, const std::string& where) {
   for (const char* group : {"fields", "from_shape", "stored"}) {
     for (const auto& [row, values] : vesicle[group].items()) {
-      BOOST_TEST(values["verdict"].get<std::string>() != "does not", where + " " + row + ": " + values.dump());
+      BOOST_TEST(values["verdict"].get<std::string>() != "disagree", where + " " + row + ": " + values.dump());
     }
   }
 }
@@ -39,7 +39,7 @@ const std::string field =
 
 }  // namespace
 
-// The common type of two matrices in a condition had three rows where a tension has one, and the program crashed.
+// Regression, a crash: the common type of two matrices in a conditional had three rows, but a tension has one.
 BOOST_AUTO_TEST_CASE(one_sphere_is_checked_in_every_flow) {
   const std::string extension = "[flow]\nkind = 'axisymmetric_extension'\nrate = 1.0\n";
   for (const std::string& further : {shear, contrast + shear, extension, field, shear + field}) {
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(two_spheres_are_checked_whether_they_are_equal_or_not) {
   }
 }
 
-// "density has 625 entries but 0 are expected": an image has no operators of its own.
+// Regression, "density has 625 entries but 0 are expected": an image has no operators of its own.
 BOOST_AUTO_TEST_CASE(two_prolates_are_checked_at_their_start_and_after_a_step) {
   const TemporaryDirectory directory;
   const std::string scene = VEHD_SOURCE_DIR "/docs/scenes/two_prolates.toml";
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(two_prolates_are_checked_at_their_start_and_after_a_step) {
   for (const nlohmann::json& json : {of_scene, of_run}) {
     BOOST_TEST_REQUIRE(json["vesicles"].size() == 2U);
     for (const nlohmann::json& vesicle : json["vesicles"]) {
-      BOOST_TEST(vesicle["fields"]["velocity"]["verdict"].get<std::string>() != "does not");
+      BOOST_TEST(vesicle["fields"]["velocity"]["verdict"].get<std::string>() != "disagree");
       BOOST_TEST(vesicle["fields"]["q"]["verdict"].get<std::string>() == "agree", vesicle["fields"]["q"].dump());
     }
   }

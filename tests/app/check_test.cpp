@@ -14,8 +14,8 @@ bool has_finite_elements() {
   return available;
 }
 
-/// A shape without symmetry in a field and a shear, small enough for coarse elements; its degree holds f_b to a
-/// percent.
+/// A shape without symmetry in a field and a shear, small enough for coarse elements; its degree resolves f_b to one
+/// per cent.
 const std::string crooked_scene =
     "[shape]\nkind = 'radial'\nmodes = [{n = 2, m = 1, a = 0.2}, {n = 3, m = -2, a = 0.1}]\n"
     "[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n"
@@ -25,7 +25,7 @@ const std::string crooked_scene =
 
 }  // namespace
 
-// The finite elements are one process for each processor.
+// The finite elements run one process on each processor.
 BOOST_AUTO_TEST_SUITE(check, *boost::unit_test::label("slow") * boost::unit_test::label("alone") *
                                  boost::unit_test::label("once"))
 

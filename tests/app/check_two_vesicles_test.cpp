@@ -9,7 +9,7 @@
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/reference_run.hpp"
 
-// The finite elements are one process for each processor.
+// The finite elements run one process on each processor.
 BOOST_AUTO_TEST_SUITE(check_two_vesicles, *boost::unit_test::precondition(finite_elements_are_built) *
                                               boost::unit_test::label("slow") * boost::unit_test::label("extended") *
                                               boost::unit_test::label("once"))
@@ -20,8 +20,8 @@ using vehd::CheckFields;
 using vehd::FrozenState;
 using vehd::Matrix;
 
-/// Nothing symmetric, each with materials of its own, in a field and a shear.
-/// @param distance  of the centres
+/// Two vesicles without symmetry and with different materials, in a field and a shear.
+/// @param distance  between the centres
 std::string scene_text(double distance) {
   return fmt::format(
       "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
@@ -41,7 +41,7 @@ std::string scene_text(double distance) {
 CheckNumbers right_numbers(const std::string& scene) {
   FrozenState frozen = vehd::read_frozen_state({"scene.toml", {}, scene}, std::nullopt);
   frozen.source = "scene";
-  // Membranes that charge, so that their currents say something.
+  // Membranes that are charging, so that their currents are not zero.
   for (vehd::VesicleState& vesicle : frozen.state.vesicles) vesicle.transmembrane_potential *= 0.6;
   CheckNumbers numbers(vehd::check_problem(frozen), 12, 18);
   numbers.store_found();
@@ -51,7 +51,7 @@ CheckNumbers right_numbers(const std::string& scene) {
 struct Damage {
   std::string name;
   std::function<void(CheckNumbers&)> apply;
-  std::size_t vesicle;  ///< whose row has to see it
+  std::size_t vesicle;  ///< whose row must detect the damage
   std::string row;
 };
 

@@ -1,6 +1,6 @@
 #include "tests/app/check_damages.hpp"
 
-// The finite elements are one process for each processor.
+// The finite elements run one process on each processor.
 BOOST_AUTO_TEST_SUITE(check_undulations, *boost::unit_test::precondition(finite_elements_are_built) *
                                              boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
@@ -15,7 +15,7 @@ const std::string scene_text =
 
 }  // namespace
 
-// The elements take the dilation from the boundary integrals and have to find the mean tension.
+// The elements take the dilation from the boundary integrals and must find the mean tension.
 BOOST_AUTO_TEST_CASE(tension_and_dilation_are_those_of_the_elements_and_damage_is_noticed) {
   const FinishedRun run(scene_text);
   check_and_damage(run, "0.2", {"velocity"}, {"force_tension_work", "tension", "velocity", "surface_divergence"},

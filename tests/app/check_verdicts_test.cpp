@@ -18,7 +18,7 @@
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/reference_run.hpp"
 
-// The finite elements are one process for each processor.
+// The finite elements run one process on each processor.
 BOOST_AUTO_TEST_SUITE(check_verdicts, *boost::unit_test::precondition(finite_elements_are_built) *
                                           boost::unit_test::label("slow") * boost::unit_test::label("extended") *
                                           boost::unit_test::label("once"))
@@ -31,7 +31,7 @@ struct Check {
   nlohmann::json json;
 };
 
-/// A quick check by one rank.
+/// Runs a quick check on one rank.
 Check checked(const std::string& file) {
   const TemporaryDirectory directory;
   const ProgramResult result = run_vehd({"check", file, "--quick", "--ranks", "1", "--no-plot", "-o", directory / "out",
@@ -51,8 +51,8 @@ const std::string numerics = "[numerics]\ndegree = 10\ndt = 0.1\nend_time = 0.0\
 
 }  // namespace
 
-// Solved anew in the degree of the file, the highest that the run may take, f_b, q, f_E and lambda were all said to be
-// wrong.
+// Regression: recomputed in the degree of the file, the highest that the run may choose, f_b, q, f_E and lambda were
+// all reported as wrong.
 BOOST_AUTO_TEST_CASE(run_with_a_tolerance_is_judged_in_its_degree) {
   const FinishedRun run(
       "[shape]\nkind = 'ellipsoid'\naxes = [1.4, 1.0, 1.0]\n[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n"
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(run_with_a_tolerance_is_judged_in_its_degree) {
   BOOST_TEST(check.exit_code == 0, check.text);
 }
 
-// What remains of terms that cancel, and numbers of the size of rounding.
+// Remainders of terms that cancel, and numbers of the size of rounding errors.
 BOOST_AUTO_TEST_CASE(fields_that_vanish_agree) {
   const std::string rotation =
       "[flow]\nkind = 'gradient'\ngradient = [[0.0, 1.0, 0.3], [-1.0, 0.0, 0.2], [-0.3, -0.2, 0.0]]\n";
@@ -96,7 +96,7 @@ using vehd::CheckFields;
 using vehd::FrozenState;
 using vehd::Matrix;
 
-/// The last snapshot of a run, and what boundary integrals find for it.
+/// The last snapshot of a run with the boundary-integral fields for it.
 CheckNumbers numbers_of_run(const std::string& scene) {
   const FinishedRun run(scene);
   vehd::CheckProblem problem = vehd::check_problem(vehd::read_frozen_state({run.output + "/run.h5", {}}, std::nullopt));
@@ -105,10 +105,10 @@ CheckNumbers numbers_of_run(const std::string& scene) {
   return {problem, order, vehd::estimate_order(order, true)};
 }
 
-/// A dataset of a snapshot whose numbers may be wrong by a share.
+/// A dataset of a snapshot whose numbers are given a relative error.
 struct Number {
   std::string dataset;
-  std::string row;  ///< "stored/q": that sees it; empty: none does, however large the share
+  std::string row;  ///< "stored/q": row that detects it; empty: none does, however large the share
   std::function<void(CheckNumbers&, double share)> make_wrong;
 };
 
@@ -119,7 +119,7 @@ Number stored(const std::string& dataset, const std::string& row, Values vehd::V
           }};
 }
 
-/// A dataset that other stored numbers belong to: the elements know the right one, and these follow from the wrong one.
+/// A dataset that determines others: the elements are given the right one, the others are computed from the wrong one.
 Number decisive(const std::string& dataset, const std::string& row,
                 const std::function<void(vehd::VesicleState&, double)>& change) {
   return {dataset, row, [=](CheckNumbers& snapshot, double share) {
@@ -137,7 +137,7 @@ Number decisive(const std::string& dataset, const std::string& row,
           }};
 }
 
-/// A dataset from which nothing that is stored follows.
+/// A dataset that determines no other stored numbers.
 Number given(const std::string& dataset, const std::string& row,
              const std::function<void(vehd::VesicleState&, double)>& change) {
   return {dataset, row, [=](CheckNumbers& snapshot, double share) {
@@ -146,7 +146,7 @@ Number given(const std::string& dataset, const std::string& row,
           }};
 }
 
-/// The elements know the right force, and the stored velocities are those that they find for the wrong one.
+/// The elements are given the right force; the stored velocities are those computed from the wrong one.
 void make_contact_wrong(CheckNumbers& snapshot, double share) {
   FrozenState other = snapshot.problem.frozen;
   for (vehd::VesicleFields& fields : other.fields.vesicles) fields.force_contact *= 1.0 + share;
@@ -163,8 +163,8 @@ bool is_noticed(const nlohmann::json& result, const Number& number) {
   return std::ranges::any_of(vesicles, [&](const nlohmann::json& vesicle) { return vesicle[row] == "disagree"; });
 }
 
-/// Of the table in docs/check.md by dataset; 0 where it has no number.
-/// @param column  of the shape
+/// Shares from the table in docs/check.md, by dataset; 0 if the table has no number.
+/// @param column  of the shape in the table
 std::map<std::string, double> shares_of_page(std::size_t column) {
   std::map<std::string, double> shares;
   std::istringstream page(file_text(VEHD_SOURCE_DIR "/docs/check.md"));
@@ -183,7 +183,7 @@ std::map<std::string, double> shares_of_page(std::size_t column) {
   return shares;
 }
 
-/// Makes one number after the other too large and too small, by less and less.
+/// Makes each number too large and too small by decreasing shares; those of the page must be noticed.
 void require_noticed(const std::string& scene, const std::vector<Number>& numbers, std::size_t column = 1) {
   const std::map<std::string, double> of_page = shares_of_page(column);
   const std::vector<double> shares{0.5,  0.2,  0.1,  0.05, 0.02, 0.01, 5e-3, 2e-3,
@@ -240,7 +240,7 @@ BOOST_AUTO_TEST_CASE(table_of_the_page_has_every_dataset) {
   for (const vehd::SnapshotField& field : vehd::snapshot_fields()) BOOST_TEST(of_page.contains(field.name), field.name);
 }
 
-// A bending force that was wrong by a percent passed at this modulus.
+// Regression: a bending force that was wrong by one per cent passed at this modulus.
 BOOST_AUTO_TEST_CASE(damage_of_the_size_that_the_page_says_is_noticed) {
   using Stored = vehd::VesicleFields;
   const std::vector<Number> numbers{
@@ -277,8 +277,8 @@ BOOST_AUTO_TEST_CASE(damage_of_free_charges_is_noticed) {
                    })});
 }
 
-// Both methods take spatially varying C_m, G_m and J_p from the snapshot; of pores boundary integrals take their state
-// and the elements G_m.
+// Both methods take spatially varying C_m, G_m and J_p from the snapshot. For pores the boundary integrals take the
+// state of the pores, the elements G_m.
 BOOST_AUTO_TEST_CASE(damage_of_pores_is_noticed_and_that_of_places_is_not) {
   const std::string membrane =
       tilted +

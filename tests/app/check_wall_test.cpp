@@ -4,7 +4,7 @@
 #include "tests/app/check_damages.hpp"
 #include "tests/app/finite_elements.hpp"
 
-// The finite elements are one process for each processor.
+// The finite elements run one process on each processor.
 BOOST_AUTO_TEST_SUITE(check_wall, *boost::unit_test::precondition(finite_elements_are_built) *
                                       boost::unit_test::label("slow") * boost::unit_test::label("once") *
                                       boost::unit_test::label("extended"))
@@ -28,7 +28,7 @@ std::string electric_text(const std::string& field) {
          "\nconductivity_in = 2.0\nconductivity_out = 1.0\npermittivity_ratio = 0.5\ninitial_Vm = 'steady'\n";
 }
 
-/// Every row of a check has to agree. @param what  is checked
+/// Requires that every row of a check agrees. @param what  arguments that select the scene or the run
 void require_agreement_of(const std::vector<std::string>& what) {
   const TemporaryDirectory directory;
   std::vector<std::string> command{"check",     "-o",     directory / "check",      "--quick",

@@ -18,7 +18,7 @@ std::string help_of(std::vector<std::string> command) {
   return result.output;
 }
 
-/// Commands that have none below them, as words: {"bench", "time"}.
+/// Commands without subcommands, as words: {"bench", "time"}.
 std::vector<std::vector<std::string>> commands_below(const std::vector<std::string>& owner) {
   const std::string help = help_of(owner);
   const std::size_t start = help.find("\nSubcommands:\n");
@@ -34,7 +34,7 @@ std::vector<std::vector<std::string>> commands_below(const std::vector<std::stri
   return commands;
 }
 
-/// What completion offers after a line, one word each.
+/// Words that completion offers after a line.
 std::vector<std::string> offered(const std::string& line) {
   const std::string script = "source <('" VEHD_PROGRAM "' completion bash); COMP_WORDS=(" + line +
                              "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _vehd; printf '%s\\n' \"${COMPREPLY[@]}\"";
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(completion_offers_commands_options_and_choices) {
   BOOST_TEST((offered("vehd bench ti") == std::vector<std::string>{"time"}));
   BOOST_TEST(has(offered("vehd bench time --d"), "--dt"));
   BOOST_TEST(has(offered("vehd help bench spa"), "space"));
-  // Scenes are files, which the shell completes where nothing is offered.
+  // Scenes are files; the shell completes file names if nothing is offered.
   BOOST_TEST(offered("vehd run docs/sc").empty());
   BOOST_TEST(offered("vehd bench time docs/sc").empty());
 }

@@ -19,7 +19,7 @@ std::vector<fs::path> pages() {
   return found;
 }
 
-/// Modules of Python that a command needs.
+/// Python modules that a command needs.
 std::string modules_of(const std::string& command) {
   if (!command.starts_with("python3 ")) return "";
   return command.find("report_page.py") == std::string::npos ? "h5py, numpy, matplotlib" : "selenium";
@@ -29,7 +29,7 @@ bool is_installed(const std::string& program) {
   return run_command({"sh", "-c", "command -v " + program}).exit_code == 0;
 }
 
-/// The command with little to measure: that it works is under test here, not its figures.
+/// The command with little to compute: this test checks that it works, not its figures.
 std::string shortened(std::string command) {
   command = std::regex_replace(command, std::regex("--(degrees|orders) [0-9,]+"), "--$1 6,8");
   command = std::regex_replace(command, std::regex("--degree [0-9]+"), "--degree 6");
@@ -47,7 +47,7 @@ std::string shortened(std::string command) {
   return std::regex_replace(command, std::regex("bench all"), "bench all --only space");
 }
 
-/// Without the pictures of a run that no other command of the page reads.
+/// The command without the pictures of its run, unless another command of the page reads them.
 std::string without_unread_pictures(const std::string& command, const std::string& page) {
   std::smatch scene, folder;
   if (!std::regex_search(command, scene, std::regex("vehd run (\\S+/)?(\\w+)\\.toml"))) return command;
@@ -61,12 +61,12 @@ bool needs_finite_elements(const std::string& command) {
   return std::regex_search(command, std::regex("vehd (bench methods|check|mesh)")) && !finite_elements_are_built();
 }
 
-/// The suites `methods` and `movie` run these with all that is asserted of their results.
+/// The suites `methods` and `movie` run these commands and check their results.
 bool another_suite_runs(const std::string& command) {
   return command == "build/vehd bench methods" || command.ends_with(" --movie");
 }
 
-/// What a command of a page needs and this machine does not have; empty if it has all.
+/// A program or module that a command of a page needs and this machine lacks; empty if nothing is missing.
 std::string missing_program(const std::string& command) {
   const std::string modules = modules_of(command);
   if (modules == "selenium" && !(is_installed("chromium") && is_installed("chromedriver"))) return "chromium";
@@ -79,7 +79,7 @@ std::string few_runs(std::string sweep) {
   return std::regex_replace(sweep, std::regex("count = [0-9]+"), "count = 2");
 }
 
-/// A folder that looks like the source tree to a reader of the pages.
+/// A folder laid out like the source tree, as a reader of the pages has it.
 struct ReaderFolder {
   TemporaryDirectory directory;
 
@@ -94,7 +94,7 @@ struct ReaderFolder {
         if (entry.path().extension() == ".py" || entry.path().extension() == ".csv") fs::copy_file(entry.path(), copy);
       }
     }
-    // These are quick, and data that were cut short would not determine what the page fits.
+    // These are quick, and shortened data would not determine the parameters that the page fits.
     fs::copy(fs::path(VEHD_SOURCE_DIR) / "docs/fits", directory / "docs/fits");
     fs::copy(fs::path(VEHD_SOURCE_DIR) / "docs/notebooks", directory / "docs/notebooks");
     copy_some_hard_cases(directory / "");
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(every_shipped_scene_is_valid) {
   BOOST_TEST(count >= 6);
 }
 
-// A table that was renewed from a part of the scenes would tell of that part alone.
+// A table renewed from only some of the scenes would lack the others.
 BOOST_AUTO_TEST_CASE(every_shipped_scene_has_its_row_where_the_scenes_end) {
   const std::string page = file_text(VEHD_SOURCE_DIR "/docs/scenes.md");
   const std::size_t start = page.find("<!-- table scenes -->");
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(the_scene_of_the_tutorial_is_the_one_that_its_page_shows) {
 BOOST_AUTO_TEST_CASE(every_command_of_every_page_works) {
   int count = 0;
   for (const fs::path& page : pages()) {
-    // Each page starts afresh, as its reader does.
+    // Each page starts in a new folder, as its reader does.
     const ReaderFolder folder;
     const std::string text = file_text(page);
     std::vector<std::string> done;
@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(every_command_of_every_page_works) {
         all_are_done = false;
         continue;
       }
-      // Nor is there what it would have made.
+      // The file to be copied may be missing because a command was skipped.
       if (!all_are_done && written.starts_with("cp ")) continue;
       const std::string command = without_unread_pictures(shortened(written), text);
       const ProgramResult result = run_command({"sh", "-c", "cd '" + (folder.directory / "") + "' && " + command});

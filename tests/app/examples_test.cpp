@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(are_written_where_asked) {
   for (const char* name : {"figure2", "relaxation"}) {
     BOOST_TEST(file_text(directory / (std::string(name) + ".toml")) == file_text(shipped(name)), name);
   }
-  // The same again does no harm.
+  // Copying again does no harm.
   BOOST_TEST(run_command({"sh", "-c", go + "--all"}).exit_code == 0);
   BOOST_TEST(vehd::files_ending(directory / "", ".toml").size() ==
              vehd::files_ending(fs::path(VEHD_SOURCE_DIR) / "docs/scenes", ".toml").size());

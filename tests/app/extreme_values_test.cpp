@@ -30,8 +30,8 @@ class ExtremeScene {
       {"end_time", "0.1"}};
 };
 
-/// What a run promises at its end: a scene that is refused leaves no run, and one that stops says why in words and
-/// can be continued.
+/// Checks how a run ends: a refused scene leaves no run, and a run that stops gives its reason in words and can be
+/// continued.
 void check_promises(const std::string& scene) {
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml", scene);

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A quick scene, what would have been measured of it, and a fit.
+/// A quick scene, synthetic measurements of it, and a fit.
 struct FitWork {
   TemporaryDirectory directory;
   std::string scene = VEHD_SOURCE_DIR "/docs/fits/charging_scene.toml", data = directory / "charging.csv",

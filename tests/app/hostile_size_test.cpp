@@ -6,8 +6,8 @@
 
 namespace {
 
-/// Refused in one line, before memory is taken: the program alone needs some 30 MB, several times that under a
-/// sanitizer.
+/// Requires a refusal in one line, before memory is allocated: the program itself needs some 30 MB, several times that
+/// under a sanitizer.
 void check_cheaply_refused(const std::vector<std::string>& arguments, const std::string& part) {
   const ProgramResult result = run_vehd(arguments);
   BOOST_TEST(result.exit_code == 1, result.errors);
@@ -16,8 +16,8 @@ void check_cheaply_refused(const std::vector<std::string>& arguments, const std:
   BOOST_TEST(result.peak_kilobytes < 400000);
 }
 
-/// A run.h5 whose position claims these extents.
-/// @param chunk  extents of its deflated chunks; empty: it is in one piece
+/// Writes a run.h5 whose position claims these extents.
+/// @param chunk  extents of its deflated chunks; empty: contiguous
 void write_hollow_run(const std::string& path, const std::vector<hsize_t>& extents, bool allocated,
                       const std::vector<hsize_t>& chunk = {}) {
   {
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(shape_files_that_claim_too_much) {
     check_cheaply_refused(arguments, part);
   };
   check({3, hsize_t{1} << 36}, false, dataset + "stores 0 numbers, less than its size says");
-  // A file with holes can be that large.
+  // A sparse file can be that large.
   check({3, hsize_t{1} << 36}, true, dataset + "has 206158430208 numbers; accepted: at most 2097152");
   write_hollow_run(directory / "run.h5", {3, 1 << 26}, false, {3, 1 << 26});
   check_cheaply_refused(arguments, dataset + "stores 0 numbers, less than its size says");

@@ -21,7 +21,7 @@ std::vector<nlohmann::json> levels_of(const nlohmann::json& bench, const std::st
 
 double error(const nlohmann::json& level, const std::string& field) { return level["error_" + field]; }
 
-/// Power of the number of unknowns with which an error falls.
+/// Power of the number of unknowns with which an error decreases.
 double power(const std::vector<nlohmann::json>& levels, const std::string& field) {
   return std::log(error(levels.front(), field) / error(levels.back(), field)) /
          std::log(levels.back()["unknowns"].get<double>() / levels.front()["unknowns"].get<double>());
@@ -47,13 +47,13 @@ BOOST_AUTO_TEST_CASE(both_methods_approach_the_exact_solution_each_at_its_rate,
   BOOST_TEST(error(bie.back(), "force") < 5e-3);
   BOOST_TEST(error(by_degree.back(), "q") < 5e-3);
   BOOST_TEST(error(by_degree.back(), "force") < 3e-2);
-  // Degree k = 2 in three dimensions: q gains the power k/3 of the unknowns and not much more.
+  // Degree k = 2 in three dimensions: the error of q decreases with about the power k/3 of the unknowns.
   BOOST_TEST(power(by_mesh, "q") > 0.6);
   BOOST_TEST(power(by_mesh, "q") < 1.2);
   BOOST_TEST(power(bie, "q") > 2.0);
-  // Each level of finite elements is a process of its own, so equal ones are equal.
+  // Each level of finite elements is a separate process, so equal levels have equal errors.
   BOOST_TEST(error(by_degree.front(), "q") == error(by_mesh.front(), "q"));
-  // The outer sphere is not what limits the errors of the table.
+  // The truncation at the outer sphere does not limit the errors of the table.
   BOOST_TEST(bench["truncation_change_q"].get<double>() < 5e-2 * error(by_degree.back(), "q"));
   for (const auto& level : bench["rows"]) {
     BOOST_TEST(level["memory_bytes"].get<double>() > 1e6);
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(both_methods_approach_the_exact_solution_each_at_its_rate,
   BOOST_TEST(std::count(csv.begin(), csv.end(), '\n') == 7);
   for (const char* input : {"out/sources.h5", "out/shape_flow.h5"}) BOOST_TEST(!fs::exists(directory / input), input);
 
-  // What a step solves for, from the shape.
+  // The unknowns of a step, computed from the shape.
   const auto flow_bie = levels_of(bench, "bie", "from_shape"), flow_fem = levels_of(bench, "fem_degree", "from_shape");
   for (const auto& levels : {flow_bie, flow_fem}) {
     BOOST_REQUIRE(levels.size() == 2);

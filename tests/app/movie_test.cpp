@@ -5,7 +5,7 @@
 
 namespace {
 
-/// Four snapshots.
+/// A run with four snapshots.
 struct RunWithSnapshots : FinishedRun {
   RunWithSnapshots() : FinishedRun(quick_scene("1.5")) {}
 };

@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_SUITE(mpi)
 
 namespace {
 
-/// At rest but for what bending does to them, so that they never meet.
+/// Vesicles that move only because of bending, so that they never meet.
 std::string two_vesicles(const std::string& end_time) {
   return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
          "[output]\nevery = 0.1\n[numerics]\norder = 4\ndt = 0.1\nend_time = " +
@@ -24,25 +24,25 @@ std::string two_vesicles(const std::string& end_time) {
          "[[vesicle]]\nname = \"right\"\nshape.centre = [1.4, 0.2, 0.0]\n";
 }
 
-/// Containers have root alone, and often fewer slots than ranks.
+/// Settings for containers, where only root exists and slots are often fewer than ranks.
 struct AnyContainer {
   AnyContainer() {
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
     ::setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
     ::setenv("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe", 1);
-    // An mpirun that is told to end removes its processes at once.
+    // mpirun kills its processes at once when it is terminated.
     ::setenv("OMPI_MCA_odls_base_sigkill_timeout", "0", 1);
     ::setenv("PRTE_MCA_odls_base_sigkill_timeout", "0", 1);
     ::setenv("OMPI_MCA_orte_execute_quiet", "1", 1);
     // All ranks are on this machine: Open MPI 5 complains about TCP where there is no network.
     ::setenv("OMPI_MCA_btl", "^tcp", 1);
-    // Ranks that wait leave the processors to other tests.
+    // Waiting ranks leave the processors to other tests.
     ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);
   }
 };
 
-/// Tests run beside others.
+/// Ranks are not bound to processors because other tests run at the same time.
 std::vector<std::string> on_ranks(const std::string& n, const std::vector<std::string>& arguments) {
   std::vector<std::string> command = {"mpirun", "--bind-to", "none", "-n", n, VEHD_MPI_PROGRAM};
   command.insert(command.end(), arguments.begin(), arguments.end());
@@ -55,7 +55,7 @@ struct RunOnRanks : RunPair {
   [[nodiscard]] std::vector<std::string> on(const std::string& n) const {
     return on_ranks(n, {"run", scene, "-o", output, "--resume", "--no-plot", "--quiet"});
   }
-  /// The processes of this run.
+  /// Processes of this run.
   [[nodiscard]] std::vector<pid_t> processes() const {
     std::vector<pid_t> all;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
@@ -68,7 +68,7 @@ struct RunOnRanks : RunPair {
     }
     return all;
   }
-  /// Lets what has ended early go on by one process to a nearby end, and compares.
+  /// Continues the interrupted run with one process to a nearby end, and compares it with the reference.
   void finish_soon() {
     const double reached = vehd::read_checkpoint(output + "/checkpoint.h5").state.time;
     write_text(scene, two_vesicles(std::to_string(reached + 0.15)));
@@ -90,14 +90,14 @@ BOOST_FIXTURE_TEST_CASE(ranks_have_the_bits_and_the_words_of_one, AnyContainer) 
   const ProgramResult resumed = run_command(run.on("3"));
   BOOST_TEST(resumed.exit_code == 0, resumed.errors);
   check_same_run(run.output, run.reference);
-  // Of all ranks and sessions; the second session begins with the shape at which the first has ended.
+  // Sum over ranks and sessions; the second session begins with the shape at which the first has ended.
   const auto evaluations = [](const std::string& folder) {
     return json_of(folder + "/summary.json").at("kernel_evaluations").begin()->get<std::int64_t>();
   };
   BOOST_TEST(evaluations(run.output) * 4 == evaluations(run.reference) * 5);
 }
 
-// With little to compute.
+// The command is run with little to compute.
 BOOST_FIXTURE_TEST_CASE(the_command_of_the_page_works, AnyContainer) {
   const std::string page = file_text(VEHD_SOURCE_DIR "/docs/several_vesicles.md");
   const std::size_t first = page.find("\nmpirun ") + 1;
@@ -126,7 +126,7 @@ BOOST_FIXTURE_TEST_CASE(a_signal_leaves_a_resumable_run, AnyContainer) {
   RunOnRanks run("10000.0");
   RunningProgram program(run.on("2"));
   run.wait_for_rows(program);
-  // That which mpirun hands on.
+  // A signal that mpirun forwards.
   program.send(SIGUSR1);
   const ProgramResult result = program.wait();
   BOOST_TEST(result.exit_code == 3, result.errors);

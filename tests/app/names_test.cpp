@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names that are commands to whatever takes them for a part of a script: each would make a file "pwned" at home.
+/// Names that act as commands if taken as part of a script: each would create a file "pwned" in the home directory.
 std::vector<std::string> hostile_names() {
   std::vector<std::string> names = {"q\n!cd;touch pwned\n#",
                                     "a';!cd;touch pwned;'",
@@ -42,7 +42,7 @@ std::vector<std::string> hostile_names() {
   return names;
 }
 
-/// A home of its own for what a command might leave there.
+/// A separate home directory for files that a command might leave there.
 struct HostileFolder {
   TemporaryDirectory directory;
   const char* const former = std::getenv("HOME");
@@ -55,7 +55,7 @@ struct HostileFolder {
   HostileFolder(const HostileFolder&) = delete;
   HostileFolder& operator=(const HostileFolder&) = delete;
 
-  /// Runs a command in the folder to an end that is no crash, and looks whether anything but the command has run.
+  /// Runs a command in the folder and checks that it has not created a file "pwned".
   ProgramResult run(std::vector<std::string> command, const std::string& name) const {
     command.insert(command.begin(), {"env", "-C", directory / ""});
     const ProgramResult result = run_command(command);
@@ -69,7 +69,7 @@ struct HostileFolder {
   }
 };
 
-/// @param check  Python that reads the file sys.argv[1], and fails where it is not well formed
+/// @param check  Python that reads the file sys.argv[1], and fails if it is not well formed
 void require_readable(const std::string& file, const std::string& check) {
   const ProgramResult result = run_command({"python3", "-c", "import sys\n" + check, file});
   BOOST_TEST(result.exit_code == 0, file << ": " << result.errors);
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_SUITE(names, *boost::unit_test::label("slow") * boost::unit_test
 BOOST_AUTO_TEST_CASE(of_files_and_directories_are_data_to_every_command) {
   for (const std::string& name : hostile_names()) {
     const HostileFolder folder;
-    // A name that begins with "-" is an option, in this program as in others.
+    // A name that begins with "-" is taken as an option, as in other programs.
     const std::string place = name.starts_with('-') ? "./" + name : name;
     const std::string scene = place + ".toml", run = place;
     write_text(folder.directory / scene, quick_scene("1.0"));
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(of_a_sweep_are_words_of_its_script_for_slurm) {
       continue;
     }
     BOOST_TEST(emitted.exit_code == 0, name << ": " << emitted.errors);
-    // In place of srun and scontrol: the words that the script gives them.
+    // Stand-ins for srun and scontrol that print their arguments.
     fs::create_directory(folder.directory / "bin");
     write_text(folder.directory / "bin/srun", "#!/bin/sh\nprintf '%s\\0' \"$@\"\n");
     fs::permissions(folder.directory / "bin/srun", fs::perms::owner_all);
@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(of_vesicles_and_words_of_a_scene_stand_in_all_files_as_they
   require_readable(folder.directory / "shapes.svg", xml);
   require_readable(folder.directory / "run/run.xdmf", xml);
   BOOST_TEST((json_of(folder.directory / "run/summary.json").at("vesicles").get<std::vector<std::string>>() == given));
-  // What a run writes it can read.
+  // The scene that a run writes can be read again.
   folder.run_well({"plan", "run/scene.toml"}, "of the vesicles");
 }
 

@@ -28,7 +28,7 @@ BOOST_AUTO_TEST_CASE(a_pump_goes_on_bit_for_bit_without_a_force_and_has_pictures
   const vehd::HistoryTable history(pair.output + "/history.csv");
   BOOST_TEST(history.column("Vm_max").back() > 0.05);
   BOOST_TEST(history.column("elastic_energy").front() > history.column("elastic_energy").back());
-  // Of forces of the order of one.
+  // The forces themselves are of order one.
   for (const char* axis : {"net_force_x", "net_force_y", "net_force_z"}) {
     for (const double force : history.column(axis)) BOOST_TEST(std::abs(force) < 1e-3, axis << " " << force);
   }

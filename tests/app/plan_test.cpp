@@ -12,7 +12,7 @@ BOOST_AUTO_TEST_SUITE(plan)
 
 namespace {
 
-/// A scene and what a run of it says at its end.
+/// A scene and the summary of its run.
 struct Run {
   TemporaryDirectory directory;
   std::string scene = directory / "scene.toml";
@@ -26,7 +26,7 @@ struct Run {
   }
 };
 
-/// Together with what the program plans.
+/// A run together with its plan.
 struct PlannedRun : Run {
   nlohmann::json plan;
 
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(every_order_in_time_evaluates_as_many_shapes_as_planned) {
   }
 }
 
-// Where the field jumps the shape is evaluated for either side of it; at a kink, and after the end, it is not.
+// At a jump of the field the shape is evaluated for either side of it; at a kink, and after the end, it is not.
 BOOST_AUTO_TEST_CASE(jumps_of_the_field_are_planned) {
   const PlannedRun run(quick_scene("1.0") +
                        "[electric.waveform]\nkind = \"table\"\ntimes = [0.0, 0.3, 0.3, 0.5, 0.75, 0.75, 2.0, 2.0]\n"
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(plan_of_a_tolerance_comes_from_whole_runs) {
   BOOST_TEST(plan.seconds_per_step > 0.0);
 }
 
-// A scene that cannot be stepped is no defect of the program.
+// A scene that cannot be stepped is reported as a finding, not as a defect of the program.
 BOOST_AUTO_TEST_CASE(scene_that_cannot_be_stepped_is_a_finding) {
   const TemporaryDirectory directory;
   const std::string scene = directory / "scene.toml";
@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(scene_that_cannot_be_stepped_is_a_finding) {
   BOOST_TEST(plan["unknowns"].get<int>() > 0);
   BOOST_TEST(plan["seconds_per_step"].is_null());
 
-  // Whether the solves fail first or the sides are found too close is not the point.
+  // The reason may be that the solves fail or that the sides are too close.
   finding(touching_membrane + "order = 6\ndt = 0.1\nend_time = 1.0\n", {}, ": ");
   finding(touching_membrane + "tolerance = 0.01\nend_time = 1.0\n", {}, ": ");
   const nlohmann::json rows =
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(scene_that_cannot_be_stepped_is_a_finding) {
   BOOST_TEST(bench.errors.find("vehd bench: the input cannot be computed: ") != std::string::npos, bench.errors);
 }
 
-// A plan takes no step that the run would not take: none at all, or one to the end that is longer than it.
+// A plan takes only steps that the run takes: none if the run has no length, one to the end if dt exceeds the run.
 BOOST_AUTO_TEST_CASE(what_can_be_run_can_be_planned) {
   const std::string pair =
       "[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1]\n[membrane]\nbending_modulus = 0.1\n[electric]\nfield = [0, 0, "

@@ -81,7 +81,7 @@ BOOST_FIXTURE_TEST_CASE(files_are_of_the_kind_that_was_asked_for, PlottedRun) {
       {"python3", "-c", "import sys, xml.etree.ElementTree as t; print(t.parse(sys.argv[1]).getroot().tag)", svg});
   BOOST_TEST(parsed.exit_code == 0, parsed.errors);
   BOOST_TEST(parsed.output == "{http://www.w3.org/2000/svg}svg\n");
-  // Alone in its folder: pictures are within it, not beside it.
+  // The run is the only entry of its folder: pictures are within it, not beside it.
   BOOST_TEST(std::distance(std::filesystem::directory_iterator(directory / "one"), {}) == 1);
   BOOST_TEST(file_text(svg).find("data:image/png;base64") != std::string::npos);
 
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(what_a_run_does_not_have_is_said_with_what_it_has) {
   const ProgramResult result = run_vehd({"plot", directory / "out", "--field", "V_m"});
   BOOST_TEST(result.exit_code == 1);
   BOOST_TEST(result.errors.find("accepted: none, tension, force, curvature") != std::string::npos, result.errors);
-  // Nothing electric is all-nan or absent in the history; the other panels are drawn.
+  // Electric columns of the history are nan or absent; the other panels are drawn.
   BOOST_TEST(run_vehd({"plot", directory / "out"}).exit_code == 0);
   BOOST_TEST(std::filesystem::exists(directory / "out/plots/history.png"));
 }

@@ -81,7 +81,7 @@ BOOST_FIXTURE_TEST_CASE(times_outside_the_run_are_refused, ShortRun) {
              file() + ": the time \"1 ms\" has a unit, but the scene has no unit of time; accepted: a number\n");
 }
 
-// Found: a number was one of the scene, 10 us, where everything that a user reads says ms.
+// Regression: a number was taken in units of the scene, 10 us, although everything that a user reads is in ms.
 BOOST_FIXTURE_TEST_CASE(times_of_a_run_in_si_are_those_that_it_shows, ShortSiRun) {
   BOOST_TEST(vehd::HistoryTable(output + "/history.csv").header("time") == "time [ms]");
   for (const char* times : {"0,0.05,0.125", "0 s, 0.05 ms, 125 µs", "0.0,50us,1.25e-4 s"}) {
@@ -109,7 +109,7 @@ BOOST_FIXTURE_TEST_CASE(frozen_states_of_a_run_in_si_take_the_same_times, ShortS
     BOOST_TEST(vehd::read_frozen_state({run, {}}, time).state.time == 5.0, boost::test_tools::tolerance(1e-12));
     BOOST_TEST(vehd::read_frozen_shape(run, time).notes.empty());
   }
-  // Alone a file does not say in which unit it was shown.
+  // A file without its history does not say in which unit its times were shown.
   const std::string lone = directory / "lone.h5";
   std::filesystem::copy_file(run, lone);
   BOOST_TEST(vehd::read_frozen_state({lone, {}}, "50 us").state.time == 5.0, boost::test_tools::tolerance(1e-12));
@@ -119,12 +119,12 @@ BOOST_FIXTURE_TEST_CASE(frozen_states_of_a_run_in_si_take_the_same_times, ShortS
                                ": the time 50 has no unit, and no history.csv beside the run says which one its times "
                                "have; accepted: as in \"50 ms\"";
   });
-  // A scene has its start alone, in whatever unit.
+  // A scene has only its start, in any unit.
   BOOST_TEST(vehd::read_frozen_shape(scene, "0 ms").notes.empty());
   BOOST_CHECK_THROW((void)vehd::read_frozen_shape(scene, "50 us"), vehd::InputError);
 }
 
-// Where a run shows numbers of the scene, a number is one of the scene.
+// If a run shows numbers of the scene, a time without a unit is such a number.
 BOOST_AUTO_TEST_CASE(times_of_a_run_that_shows_numbers_of_the_scene_are_such) {
   const FinishedRun run(quick_scene_with_units("time = \"10 us\"\n", "0.5") + "units = \"dimensionless\"\n");
   const std::string file = run.output + "/run.h5";

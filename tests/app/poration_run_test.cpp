@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_SUITE(poration_run, *boost::unit_test::label("slow") * boost::un
 BOOST_AUTO_TEST_CASE(a_crossing_goes_on_bit_for_bit_and_is_told) {
   const RunPair pair(porating_sphere + first_crossing + porating_steps);
   pair.run_reference();
-  // After it; the other way is that of a run that stops before it.
+  // Stops after the crossing; the run below stops before it.
   pair.run_until("0.8");
   pair.finish();
   const RunPair before(porating_sphere + first_crossing + porating_steps);

@@ -9,7 +9,7 @@
 #include "tests/support/files.hpp"
 #include "tests/support/scenes.hpp"
 
-/// The real binary as users run it.
+/// Result of the real binary, run as users run it.
 struct ProgramResult {
   int exit_code = -1;  ///< -1: ended by a signal
   long peak_kilobytes = 0;
@@ -47,5 +47,5 @@ ProgramResult run_command(const std::vector<std::string>& command);
 std::string python_with(const std::string& modules);
 std::vector<std::string> vehd_command(const std::vector<std::string>& arguments);
 
-/// Two scenes of tests/hard/scenes, at the same place below `tree`.
+/// Copies two scenes of tests/hard/scenes to the same place below `tree`.
 void copy_some_hard_cases(const std::filesystem::path& tree);

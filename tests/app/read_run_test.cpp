@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(python_draws_figure_4_from_the_files_alone) {
   BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
   BOOST_TEST(file_text(picture).starts_with("\x89PNG"));
 
-  // What it finds from the fields is what the history has, for the soft membrane first.
+  // The energy computed from the fields agrees with that of the history; the soft membrane comes first.
   const std::regex line("κ_B = (0\\.\\d+): energy ([0-9.]+) at time 0.3; history and snapshots agree to ([0-9e-]+)\n");
   std::smatch match;
   std::string text = result.output;
@@ -35,7 +35,7 @@ BOOST_AUTO_TEST_CASE(python_draws_figure_4_from_the_files_alone) {
     BOOST_TEST_REQUIRE(std::regex_search(text, match, line), result.output);
     BOOST_TEST(match[1] == modulus);
     BOOST_TEST(std::stod(match[2]) > 12.57);
-    // At degree 6 the integral over the grid of the degree itself is less accurate than that of the history.
+    // At degree 6 the quadrature on the grid of that degree is less accurate than that of the history.
     BOOST_TEST(std::stod(match[3]) < 1e-4);
     text = match.suffix();
   }

@@ -22,8 +22,8 @@ struct FinishedRun {
   explicit FinishedRun(const std::string& text = quick_scene("0.5"));
 };
 
-/// A scene, a place for its run without any trouble, and the command that makes the same run in `output`, or continues
-/// it there.
+/// A scene, a folder for its undisturbed run, and the command that makes the same run in `output`, or continues it
+/// there.
 struct RunPair {
   TemporaryDirectory directory;
   std::string scene = directory / "scene.toml";
@@ -35,25 +35,25 @@ struct RunPair {
   explicit RunPair(const std::string& text) { write_text(scene, text); }
 
   void run_reference() const;
-  /// Begins the run that goes on later.
+  /// Begins the run, which is continued later.
   void run_until(const std::string& end_time) const;
-  /// Runs the command to its end and compares. It must succeed.
+  /// Runs the command to its end, which must succeed, and compares the result with the reference.
   void finish() const;
   /// Waits until the run has written at least one row.
   void wait_for_rows(RunningProgram& program) const;
 };
 
-/// With the run without trouble.
+/// A pair whose undisturbed run is made on construction.
 struct ReferenceRun : RunPair {
-  double seconds = 0.0;  ///< that it took
+  double seconds = 0.0;  ///< time taken by the undisturbed run
 
   explicit ReferenceRun(const std::string& text = quick_scene());
 };
 
-/// Met while it runs on any machine: it has hours to go.
+/// A run of hours, which is certain to be running when it is interrupted, on any machine.
 struct EndlessRun : RunPair {
   EndlessRun() : RunPair(quick_scene("100000.0")) {}
 
-  /// Lets what was interrupted end soon, and compares it with the same run without trouble.
+  /// Continues the interrupted run to a nearby end, and compares it with the undisturbed run.
   void finish_soon() const;
 };

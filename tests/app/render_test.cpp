@@ -5,7 +5,7 @@
 
 namespace {
 
-/// The set-up for tests installs all of this; who builds by hand may not have it.
+/// The set-up for tests installs all of this; a manual build may lack it.
 bool can_render() {
   const bool available = run_command({"sh", "-c", "command -v xvfb-run && command -v pvpython"}).exit_code == 0;
   if (!available)
@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_SUITE(xdmf, *boost::unit_test::label("once"))
 namespace {
 
 /// A run to time 1 with snapshots every 0.5.
-/// @return  what it finds
+/// @return  data that the viewer finds
 nlohmann::json viewer_sees(const std::string& scene, int n_vesicles) {
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml", scene);

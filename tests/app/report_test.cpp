@@ -12,7 +12,7 @@
 
 namespace {
 
-/// A browser and what drives it; the set-up for tests installs them, who builds by hand may not have them.
+/// Whether there are a browser and its driver; the set-up for tests installs them, a manual build may lack them.
 bool can_browse(const std::string& python) {
   const bool available =
       !python.empty() && run_command({"sh", "-c", "command -v chromium && command -v chromedriver"}).exit_code == 0;
@@ -24,7 +24,7 @@ bool can_browse(const std::string& python) {
   return available;
 }
 
-/// What the page holds for its scripts.
+/// Data that the page holds for its scripts.
 nlohmann::json data_of(const std::string& page) {
   const std::string start = "<script type=\"application/json\" id=\"run\">";
   const std::size_t begin = page.find(start) + start.size();
@@ -45,7 +45,7 @@ struct ReportedRun {
     BOOST_TEST_REQUIRE(report.exit_code == 0, report.errors);
   }
 
-  /// What a browser shows of it.
+  /// Content of the page as a browser shows it.
   [[nodiscard]] nlohmann::json shown(const std::string& python) const {
     const ProgramResult result =
         run_command({python, std::string(VEHD_SOURCE_DIR) + "/tests/app/report_page.py", page});
@@ -54,7 +54,7 @@ struct ReportedRun {
   }
 };
 
-/// Largest difference of the drawn extents from those of a row of the history, relative.
+/// Largest relative difference between the drawn extents and those of a row of the history.
 double wrong_extents(const nlohmann::json& state, const vehd::HistoryTable& history, std::size_t row) {
   double worst = 0.0;
   const std::vector<std::string> columns = {"extent_x", "extent_y", "extent_z"};
@@ -65,7 +65,7 @@ double wrong_extents(const nlohmann::json& state, const vehd::HistoryTable& hist
   return worst;
 }
 
-/// Bending alone, and nothing to colour but the tension.
+/// A scene with only bending, in which only the tension can be shown in colour.
 std::string scene_without_field() {
   return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.2, 1.5]\n[membrane]\nbending_modulus = 0.1\n"
          "[numerics]\norder = 6\ndt = 0.25\nend_time = 1.0\n[output]\nevery = 0.5\n";
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(report_of_a_run_in_si_is_in_its_units) {
   BOOST_TEST(units.at("potential across the membrane") == "mV");
   BOOST_TEST(units.at("extent") == "µm");
   BOOST_TEST(units.at("aspect ratio") == "");
-  // Of no panel but one with a column of history.csv that has this header.
+  // The unit of a panel is that of its column of history.csv.
   const vehd::HistoryTable history(run.output + "/history.csv");
   BOOST_TEST(units.at("charge density") == vehd::printed_unit(history.unit("q_north")));
 }
@@ -202,7 +202,7 @@ BOOST_AUTO_TEST_CASE(browser_shows_the_vesicle_and_the_slider_moves_it) {
   BOOST_TEST(end["pixels"]["sum"] != shown["recoloured"]["pixels"]["sum"]);
   BOOST_TEST(start["label"].get<std::string>().starts_with("Vesicle at t = 0, 2 by 2 by 3 along x, y and z"));
 
-  // The scripts find the surface that the solver has.
+  // The scripts evaluate the same surface as the solver.
   const vehd::HistoryTable history(run.output + "/history.csv");
   BOOST_TEST(wrong_extents(start, history, 0) < 1e-3);
   BOOST_TEST(wrong_extents(end, history, history.n_rows() - 1) < 1e-3);

@@ -33,7 +33,7 @@ bool is_result(const std::string& text) {
   return json.is_object() && json.contains("error_q");
 }
 
-/// Nothing but these names is in the folder.
+/// Requires that the folder holds these names and no others.
 void check_holds(const fs::path& folder, const std::set<std::string>& names) {
   std::set<std::string> found;
   for (const auto& entry : fs::directory_iterator(folder)) found.insert(entry.path().filename().string());
@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(pipe_gets_the_result_and_stays_a_pipe) {
 }
 
 BOOST_AUTO_TEST_CASE(device_stays_a_device) {
-  // Not /dev/null itself: on a machine where that is replaced, nothing works any more.
+  // A link to /dev/null, not the device itself: if that were replaced, the machine would no longer work.
   const TemporaryDirectory directory;
   fs::create_symlink("/dev/null", directory / "null");
   BOOST_TEST(with_json(quick_command, directory / "null").exit_code == 0);
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(file_behind_links_is_replaced_and_the_links_stay) {
 }
 
 BOOST_AUTO_TEST_CASE(a_reader_sees_the_old_or_the_new_file) {
-  // The file behind the link is another one afterwards: whoever has the old one open reads it to its end.
+  // The link then leads to a new file: a reader that has the old one open reads it to its end.
   const TemporaryDirectory directory;
   write_text(directory / "file", "old");
   fs::create_symlink("file", directory / "link");
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(a_reader_sees_the_old_or_the_new_file) {
 
 BOOST_AUTO_TEST_CASE(standard_output_holds_the_result_alone) {
   for (const char* name : {"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
-    // A file behind standard output, as RunningProgram has it, and a pipe.
+    // Standard output is a file, as in RunningProgram, or a pipe.
     for (const ProgramResult& result :
          {with_json(quick_command, name), in_shell(std::string("\"$@\" --json ") + name + " | cat", quick_command)}) {
       BOOST_TEST(result.exit_code == 0, result.errors);
@@ -140,7 +140,7 @@ BOOST_FIXTURE_TEST_CASE(every_command_can_have_standard_output_for_its_result, F
       {"help", "groups", scene}};
   if (finite_elements_are_built()) {
     commands.push_back({"mesh", scene, "-o", directory / "mesh.msh"});
-    // Every row is decided by a degree that holds the bending force.
+    // This degree resolves the bending force, so that every row is decided.
     commands.push_back({"check", scene, "--set", "numerics.degree=16", "--quick", "--ranks", "2", "--require", "0.1",
                         "-o", directory / "check"});
   }
@@ -178,7 +178,7 @@ BOOST_AUTO_TEST_CASE(place_that_cannot_be_written_is_named) {
 }
 
 BOOST_FIXTURE_TEST_CASE(files_of_a_run_that_lie_elsewhere_stay_there, FinishedRun) {
-  // As one moves them to a larger disk in the middle of a run.
+  // As a user moves files to a larger disk in the middle of a run.
   fs::create_directory(directory / "large_disk");
   for (const char* name : {"run.h5", "run.xdmf", "summary.json", "scene.toml", "checkpoint.h5", "history.csv"}) {
     fs::rename(output + "/" + name, directory / (std::string("large_disk/") + name));

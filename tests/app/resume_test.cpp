@@ -7,7 +7,7 @@
 BOOST_AUTO_TEST_SUITE(resume, *boost::unit_test::label("slow"))
 
 BOOST_AUTO_TEST_CASE(a_chain_of_fifty_runs_is_one_run) {
-  // Every link takes one step of 0.25 and ends; its end is a snapshot of its own, so histories are compared.
+  // Each run of the chain takes one step of 0.25; its end is an additional snapshot, so histories are compared.
   constexpr int kLinks = 50;
   const ReferenceRun one(quick_scene("12.5"));
   for (int link = 1; link <= kLinks; ++link) {

@@ -56,7 +56,7 @@ BOOST_FIXTURE_TEST_CASE(history_has_the_stable_columns_and_lands_on_snapshot_tim
 }
 
 BOOST_FIXTURE_TEST_CASE(snapshots_come_on_time_though_decimal_steps_do_not_add_up, Run) {
-  // Ten times 0.1 is not 1.0 in binary: the last step before a snapshot has to stretch by a rounding error.
+  // Ten times 0.1 is not 1.0 in binary: the last step before a snapshot must be stretched by a rounding error.
   run("[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
       "[flow]\nkind = \"shear\"\nrate = 0.1\n[numerics]\norder = 4\ndt = 0.1\nend_time = 5.0\n"
       "[output]\nevery = 1.0\n");

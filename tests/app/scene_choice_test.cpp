@@ -29,7 +29,7 @@ BOOST_FIXTURE_TEST_CASE(a_run_goes_to_a_folder_called_after_its_scene, WorkFolde
   BOOST_TEST(result.exit_code == 0, result.errors);
   BOOST_TEST(fs::exists(directory / "out/some/summary.json"));
   BOOST_TEST(result.output.find("files: out/some\n") != std::string::npos, result.output);
-  // Nothing there is lost to another run.
+  // Another run must not overwrite its files.
   BOOST_TEST(vehd("run some.toml --no-plot --set membrane.conductance=4").exit_code == 1);
 }
 
@@ -41,7 +41,7 @@ BOOST_FIXTURE_TEST_CASE(a_run_has_what_is_set_and_its_scene_says_so, WorkFolder)
   BOOST_TEST(scene.numerics.end_time == 0.25);
   BOOST_TEST(scene.membrane.conductance == 4.0);
   BOOST_TEST(json("out/some/summary.json")["time"] == 0.25);
-  // It goes on under the same settings alone.
+  // It continues only with the same settings.
   const ProgramResult other = vehd("run some.toml --resume --no-plot");
   BOOST_TEST(other.exit_code == 1);
   BOOST_TEST(other.errors.starts_with("some.toml:6: \"membrane.conductance\" is 5.0, but the run in out/some has 4.0"),
@@ -54,7 +54,7 @@ BOOST_FIXTURE_TEST_CASE(a_run_has_what_is_set_and_its_scene_says_so, WorkFolder)
 }
 
 BOOST_FIXTURE_TEST_CASE(what_to_do_about_a_stopped_run_repeats_the_settings, WorkFolder) {
-  // An electric stress that no step of this size follows.
+  // An electric stress that is too large for steps of this size.
   const ProgramResult result =
       vehd("run some.toml --no-plot --set 'electric.field=[0, 0, 1e5]' --set numerics.end_time=1e3");
   BOOST_TEST(result.exit_code == 3, result.output << result.errors);

@@ -14,7 +14,7 @@ namespace {
 
 const std::string two_prolates = VEHD_SOURCE_DIR "/docs/scenes/two_prolates.toml";
 
-/// Two vesicles off axis, each with a fluid of its own, in shear and field: steps of 0.1, a snapshot every 0.2.
+/// Two vesicles off axis with different fluids, in shear and field: steps of 0.1, a snapshot every 0.2.
 std::string quick_pair(const std::string& end_time) {
   return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n"
          "[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n"
@@ -28,7 +28,7 @@ std::string quick_pair(const std::string& end_time) {
          "[vesicle.fluid]\nviscosity_ratio = 2.0\n";
 }
 
-/// Bodies without any force, which a flow presses together.
+/// Bodies without any force, pressed together by a flow.
 std::string pressed_bodies(double half_distance, double dt) {
   return fmt::format(
       "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 0.8]\n"
@@ -40,7 +40,7 @@ std::string pressed_bodies(double half_distance, double dt) {
       half_distance, dt);
 }
 
-/// Rows of vesicles.csv that tell of one vesicle.
+/// Values of one vesicle in a column of vesicles.csv.
 std::vector<double> of_vesicle(const vehd::HistoryTable& rows, const std::string& column, int vesicle) {
   std::vector<double> values;
   for (std::size_t i = 0; i < rows.n_rows(); ++i) {
@@ -58,8 +58,8 @@ void check_refused(const std::vector<std::string>& arguments, const std::string&
 
 }  // namespace
 
-// An independent axisymmetric code, errors below 1e-7; the upper vesicle at time 1. The scene allows more degrees,
-// which make no difference here.
+// Reference: an independent axisymmetric code with errors below 1e-7; the upper vesicle at time 1. The scene allows
+// higher degrees, which make no difference here.
 BOOST_AUTO_TEST_CASE(two_prolates_go_where_an_axisymmetric_code_takes_them) {
   const TemporaryDirectory directory;
   const std::string output = directory / "out";
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(files_tell_of_every_vesicle) {
     const double worst = std::max(of_vesicle(each, "strain_max", 0)[i], of_vesicle(each, "strain_max", 1)[i]);
     BOOST_TEST(all.column("strain_max")[i] == worst);
   }
-  // The right one is 0.8 of the left one.
+  // The right vesicle is 0.8 times as large as the left one.
   BOOST_TEST(std::abs(of_vesicle(each, "area", 1)[0] / of_vesicle(each, "area", 0)[0] - 0.64) < 1e-6);
   const vehd::RunReader snapshots(run.output + "/run.h5");
   BOOST_TEST(snapshots.n_vesicles() == 2);
@@ -167,7 +167,7 @@ BOOST_AUTO_TEST_CASE(errors_of_a_tolerance_are_those_of_the_worst_vesicle) {
     BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
     const nlohmann::json row = json_of(directory / "out/time.json")["rows"][0];
     errors.push_back(row["error_bending_energy_scaled"].get<double>());
-    // That of a sphere is nothing but rounding.
+    // The error of a sphere is only rounding.
     BOOST_TEST(row["error_tension_integral"].get<double>() < 0.1);
   }
   BOOST_TEST(errors[0] > 1e-9);
@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(plan_counts_the_kernels_of_all) {
   BOOST_TEST(plan.at("operators").back().at("vesicles").get<int>() == 1);
 }
 
-// Equal prolates about the axis of their field: what the other one does is what the first one does.
+// Equal prolates on the axis of their field: the second one mirrors the first.
 BOOST_AUTO_TEST_CASE(exchange_of_equal_vesicles_is_planned_and_mirrors_them) {
   const TemporaryDirectory directory;
   const ProgramResult planned =
@@ -214,7 +214,7 @@ BOOST_AUTO_TEST_CASE(exchange_of_equal_vesicles_is_planned_and_mirrors_them) {
   for (std::size_t i = 0; i < lower.size(); ++i) BOOST_TEST(std::abs(lower[i] + upper[i]) < 1e-12);
 }
 
-// Of ten some are far enough for expansions.
+// Some of the ten vesicles are far enough apart for expansions.
 BOOST_AUTO_TEST_CASE(plan_counts_the_targets_of_pairs_as_the_run_does) {
   const std::string scene =
       "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"

@@ -21,7 +21,7 @@ std::string pulsed_scene(const std::string& units, const std::string& shape, con
 
 BOOST_AUTO_TEST_SUITE(shape_file)
 
-// The end of a run is that of a run that goes on from its middle, in other units and with the membrane half charged.
+// A run continued from its middle, in other units and with the membrane half charged, ends as the whole run does.
 BOOST_AUTO_TEST_CASE(a_run_goes_on_from_the_middle_of_a_pulse_in_other_units) {
   const TemporaryDirectory directory;
   const auto run = [&](const std::string& name, const std::string& text) {

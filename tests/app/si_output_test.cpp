@@ -67,13 +67,13 @@ BOOST_FIXTURE_TEST_CASE(units_change_what_is_shown_and_nothing_of_the_run, SiRun
   for (std::size_t i = 0; i < data.size(); ++i) BOOST_TEST((data[i].second == reference[i].second), data[i].first);
 }
 
-// What 1 means inside is nobody's concern: a column with the dimension of another would change with it.
+// The reference scales must not change the SI columns; a column with a wrong dimension would change with them.
 BOOST_FIXTURE_TEST_CASE(a_history_in_si_does_not_depend_on_the_reference_scales, SiRun) {
   std::string tilted = pulse();
   const auto replace = [&](const std::string& from, const std::string& to) {
     tilted.replace(tilted.find(from), from.size(), to);
   };
-  // Nothing is zero by symmetry.
+  // No column vanishes by symmetry.
   replace("field = [0, 0, \"1 kV/cm\"]", "field = [\"0.03 kV/cm\", 0, \"0.09 kV/cm\"]");
   replace("area = ", "centre = [\"5 um\", \"2 um\", \"3 um\"]\narea = ");
   tilted += "[flow]\nkind = \"shear\"\nrate = \"100 1/s\"\n";
@@ -85,13 +85,13 @@ BOOST_FIXTURE_TEST_CASE(a_history_in_si_does_not_depend_on_the_reference_scales,
   for (const vehd::HistoryColumn& column : vehd::history_columns()) {
     const std::string name(column.name);
     BOOST_TEST(a.header(name) == b.header(name));
-    // What solvers and rounding leave.
+    // Columns that consist of solver and rounding errors.
     if (name.starts_with("iterations") || name.find("drift") != std::string::npos || name == "strain_max" ||
         name == "raw_area") {
       continue;
     }
     double size = a.largest_magnitude(name);
-    // A component is as exact as the largest one.
+    // The error of a component is relative to the largest one.
     const std::string stem = name.substr(0, name.rfind('_') + 1);
     const bool is_vector = name.starts_with("centroid") || name.starts_with("dipole");
     if (is_vector || name.starts_with("stress") || name.starts_with("shape_mode")) {
@@ -99,7 +99,7 @@ BOOST_FIXTURE_TEST_CASE(a_history_in_si_does_not_depend_on_the_reference_scales,
         if (a.has(stem + entry)) size = std::max(size, a.largest_magnitude(stem + entry));
       }
     }
-    // What is left of sums that nearly cancel has fewer digits.
+    // Remainders of sums that nearly cancel have fewer digits.
     const double bound = name == "quadrature_error" ? 1e-3 : 1e-6;
     for (std::size_t i = 0; i < a.n_rows(); ++i) {
       const double x = a.column(name)[i], y = b.column(name)[i];
@@ -125,7 +125,7 @@ BOOST_FIXTURE_TEST_CASE(numbers_are_those_of_the_experiment, SiRun) {
   BOOST_TEST(file.number_attribute("/snapshots/000000/x", "scale") == radius, boost::test_tools::tolerance(1e-12));
 }
 
-// Its first step is 3e-13 of it.
+// The first step is 3e-13 of the run.
 BOOST_FIXTURE_TEST_CASE(a_membrane_that_charges_in_nanoseconds_may_be_followed_for_an_hour, SiRun) {
   const std::string scene =
       "[units]\nlength = \"1 um\"\n[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 2]\n"
@@ -164,7 +164,7 @@ BOOST_FIXTURE_TEST_CASE(a_run_goes_on_in_the_units_of_its_history, SiRun) {
 BOOST_FIXTURE_TEST_CASE(a_stopped_si_run_continues_bit_for_bit, SiRun) {
   const RunPair pair(pulse());
   pair.run_reference();
-  // Stops by itself half way, and goes on.
+  // The run ends half way and is continued.
   write_text(pair.scene, pulse("", "100 us"));
   BOOST_TEST_REQUIRE(run_command(pair.command).exit_code == 0);
   write_text(pair.scene, pulse());
@@ -180,7 +180,7 @@ BOOST_FIXTURE_TEST_CASE(snapshots_come_often_during_a_pulse_and_seldom_after_it,
   std::vector<long> us;
   for (const double time : file.times()) us.push_back(std::lround(time * scale * 1e6));
   BOOST_TEST(us == (std::vector<long>{0, 10, 20, 30, 40, 50, 70, 100, 200}), boost::test_tools::per_element());
-  // 5 in the window, one to 70, two to 100, four to 200.
+  // Steps: 5 in the window, one to 70, two to 100, four to 200.
   BOOST_TEST(vehd::HistoryTable(output + "/history.csv").n_steps() == 12);
 }
 

@@ -10,7 +10,7 @@ inline const std::string stopping_scene =
     "[flow]\nkind = \"shear\"\nrate = 1.0\n"
     "[numerics]\norder = 6\ndt = 1e6\nend_time = 1e7\n[output]\nevery = 1e6\n";
 
-/// A shear that sets in at time 1, much too strong for the steps until then.
+/// A shear that sets in at time 1, much too strong for the step size used until then.
 inline const std::string sudden_shear =
     "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]\n[membrane]\nbending_modulus = 0.1\n"
     "[flow]\nkind = \"shear\"\nrate = 40000.0\n[flow.waveform]\nkind = \"pulse\"\nstart = 1.0\nduration = 5.0\n"

@@ -8,7 +8,7 @@
 #include "bie/support/csv.hpp"
 #include "tests/app/program.hpp"
 
-/// A folder with a quick scene, sweeps of it and what they make.
+/// A folder with a quick scene, sweeps of it and their results.
 struct SweepWork {
   TemporaryDirectory directory;
   std::string file = directory / "some.toml", output = directory / "out";
@@ -48,7 +48,7 @@ struct SweepWork {
     return cells;
   }
 
-  /// Processes that have the locks of run directories.
+  /// Processes that hold the locks of run directories.
   [[nodiscard]] std::vector<pid_t> workers() const {
     std::set<std::string> locks;
     std::error_code ignored;
@@ -56,7 +56,7 @@ struct SweepWork {
       struct stat facts {};
       if (::stat((entry.path() / ".lock").c_str(), &facts) == 0) locks.insert(std::to_string(facts.st_ino));
     }
-    // "1: FLOCK  ADVISORY  WRITE 6679 fe:00:10953314 0 EOF"
+    // A line of the table: "1: FLOCK  ADVISORY  WRITE 6679 fe:00:10953314 0 EOF"
     std::vector<pid_t> workers;
     std::istringstream table(file_text("/proc/locks"));
     for (std::string line; std::getline(table, line);) {

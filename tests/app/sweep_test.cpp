@@ -37,7 +37,7 @@ BOOST_FIXTURE_TEST_CASE(any_number_of_workers_makes_one_table, SweepWork) {
     BOOST_TEST_REQUIRE(run({"--jobs", jobs}, other).exit_code == 0);
     BOOST_TEST(without_seconds(table(other)) == without_seconds(rows));
   }
-  // Each row says what its run does alone, to the last digit.
+  // Each row equals the same run outside of the sweep, to the last digit.
   const ProgramResult alone =
       run_vehd({"run", directory / "base.toml", "-o", directory / "alone", "--no-plot", "--threads", "1", "--set",
                 "electric.conductivity_in=2.0", "--set", "numerics.dt=0.125"});
@@ -123,7 +123,7 @@ BOOST_FIXTURE_TEST_CASE(a_signal_leaves_everything_to_the_next_call, SweepWork) 
 }
 
 BOOST_FIXTURE_TEST_CASE(a_crash_is_a_row_and_the_other_runs_go_on, SweepWork) {
-  // The first is met while it runs on any machine.
+  // The first run is long enough to be still running on any machine.
   write_sweep("\"numerics.end_time\" = {values = [100000.0, 0.5, 0.6, 0.7]}\n");
   RunningProgram program(command({"--jobs", "1"}));
   BOOST_TEST(comes_true([&] { return !workers().empty(); }, std::chrono::seconds(60)));
@@ -192,7 +192,7 @@ BOOST_FIXTURE_TEST_CASE(a_script_for_slurm_shares_the_runs_out, SweepWork) {
   BOOST_TEST(script.find("\nsrun --cpus-per-task=1 ") != std::string::npos, script);
   BOOST_TEST(script.find("scontrol requeue") != std::string::npos, script);
   BOOST_TEST(run_command({"bash", "-n", output + "/sweep.sbatch"}).exit_code == 0);
-  // Room for the worker and for whoever starts it: more than nothing, less than a small machine has.
+  // Memory for the worker and its parent process: more than nothing, less than that of a small machine.
   const std::size_t memory = script.find("#SBATCH --mem=");
   BOOST_TEST_REQUIRE(memory != std::string::npos, script);
   BOOST_TEST(std::stoi(script.substr(memory + 14)) > 10);
@@ -218,7 +218,7 @@ BOOST_FIXTURE_TEST_CASE(a_script_for_slurm_has_what_the_cluster_wants, SweepWork
   }
   BOOST_TEST(script.find("requeue") == std::string::npos, script);
   BOOST_TEST(run_command({"bash", "-n", output + "/sweep.sbatch"}).exit_code == 0);
-  // The line that submits all turns, with an sbatch that says how it is called.
+  // Runs the line that submits all turns, with a stand-in for sbatch that prints its arguments.
   const std::size_t line = script.find("# job="), end = script.find('\n', line);
   BOOST_TEST_REQUIRE(line != std::string::npos, script);
   const ProgramResult turns =
@@ -226,7 +226,7 @@ BOOST_FIXTURE_TEST_CASE(a_script_for_slurm_has_what_the_cluster_wants, SweepWork
   const std::string first = "--parsable " + output + "/sweep.sbatch\n",
                     next = "--parsable --dependency=afterany:7 " + output + "/sweep.sbatch\n";
   BOOST_TEST(turns.errors == first + next + next);
-  // They are of --emit alone.
+  // These options require --emit.
   BOOST_TEST(run({"--account", "cells"}).exit_code == 1);
   BOOST_TEST(run({"--emit", "slurm", "--account", "a\"b"}).errors.find("a line #SBATCH cannot hold") !=
              std::string::npos);
@@ -251,7 +251,7 @@ BOOST_AUTO_TEST_CASE(the_script_for_one_run_works_in_scratch_space_and_brings_it
   BOOST_TEST(json_of(output + "/summary.json").at("completed").get<bool>());
   BOOST_TEST(fs::is_empty(directory / "scratch"));
   BOOST_TEST(!fs::exists(directory / "turns"));
-  // Goes on in what is there; ended by a signal it asks for another turn.
+  // Continues in the existing folder; a run ended by a signal is requeued.
   const ProgramResult again = submit(VEHD_PROGRAM);
   BOOST_TEST(again.output.find("nothing to do") != std::string::npos, again.output);
   write_text(directory / "stopped", "#!/bin/sh\nexit 3\n");
@@ -271,7 +271,7 @@ BOOST_FIXTURE_TEST_CASE(pictures_show_lines_of_one_key_and_maps_of_two, SweepWor
       run_vehd({"plot", output, "--column", "aspect_ratio", "--border", "1.5", "--format", "pdf"});
   BOOST_TEST(result.exit_code == 0, result.errors);
   BOOST_TEST(result.output == output + "/plots/map_aspect_ratio.pdf\n");
-  // A curve from corner to corner, and one that is of another sweep.
+  // A curve from corner to corner; the one below belongs to another sweep.
   write_text(directory / "curve.csv",
              "numerics.dt,electric.conductivity_in\n0.25,0.5\n0.125,2.0\n\n0.2,1.0\n0.2,2.0\n");
   BOOST_TEST(run_vehd({"plot", output, "--column", "aspect_ratio"}).exit_code == 0);

@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(history_has_both_sides_of_every_switch) {
   const std::vector<double>& charge = history.column("q_north");
   BOOST_TEST(charge[second[0] - 1] == 0.0);
   BOOST_TEST(charge[second[0]] != 0.0);
-  // Just after the end of the pulse the charge is that of V_m alone.
+  // Just after the end of the pulse the charge is due to V_m only.
   BOOST_TEST(std::abs(charge[second[1]] - charge[second[1] - 1]) > 0.1 * std::abs(charge[second[1]]));
 
   const auto summary = json_of(run.reference + "/summary.json");

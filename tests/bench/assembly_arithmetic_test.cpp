@@ -29,7 +29,7 @@ BOOST_AUTO_TEST_CASE(assembly_is_of_fifth_order_in_the_degree) {
 }
 
 BOOST_AUTO_TEST_CASE(every_kernel_value_costs_what_its_column_is_carried_through) {
-  // One scalar column at p = 8: the largest products alone, Legendre sums of all targets and the sums over the azimuth.
+  // One scalar column at p = 8, only the largest products: Legendre sums of all targets and the sums over the azimuth.
   const Space space(8);
   const double targets = space.coarse.grid().n_points();
   const double hemisphere = space.quadrature.n_theta / 2;
@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(the_symmetry_of_a_shear_flow_divides_operations_by_more_tha
     return operations_per_assembly(space.quadrature, space.coarse, selection, {symmetry, 24}, 1);
   };
   BOOST_TEST(with(shear, kStokesLayer) < with({}, kStokesLayer) / 5.0);
-  // Of Laplace layers all classes are kept.
+  // For Laplace layers all classes are kept.
   BOOST_TEST(with(shear, kLaplaceLayers) < with({}, kLaplaceLayers) / 3.0);
   BOOST_TEST(with(shear, kLaplaceLayers) > with({}, kLaplaceLayers) / 5.0);
 }

@@ -23,7 +23,7 @@ BOOST_AUTO_TEST_CASE(degree_is_the_lowest_that_is_enough) {
     BOOST_TEST(found->error == std::pow(10.0, -0.25 * degree));
   }
   BOOST_TEST(!degree_of_error(problem, 0.9e-8, 4, 32).has_value());
-  // Neither below the lowest nor beyond the highest.
+  // No degree below the lowest or above the highest is solved.
   BOOST_TEST(*solved.begin() >= 4);
   BOOST_TEST(*solved.rbegin() == 32);
 }
@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(an_error_that_is_no_number_is_not_enough) {
   BOOST_TEST(!degree_of_error(problem, 1.0, 4, 8).has_value());
 }
 
-// Memory that is given back before the end counts as well.
+// Memory that is freed before the end counts as well.
 BOOST_AUTO_TEST_CASE(memory_is_the_most_that_a_solution_holds) {
   constexpr std::size_t kNumbers = 4'000'000;
   const ExactProblem problem{"field", [](int degree) {

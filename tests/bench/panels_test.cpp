@@ -32,7 +32,7 @@ BOOST_FIXTURE_TEST_CASE(what_an_order_can_do_is_shown_apart_from_the_degree, Tab
   const auto drawn = panels("time", time_table);
   BOOST_REQUIRE(drawn.size() == 2);
   BOOST_TEST(drawn[0].curves.size() == 3u);
-  // The tolerance has no steps of one size, so no error of theirs.
+  // Runs with a tolerance have no fixed step, so they have no error of an order.
   BOOST_REQUIRE(drawn[1].curves.size() == 2);
   BOOST_TEST(drawn[1].curves[1].y[1] == 6e-8);
   BOOST_TEST(drawn[1].x_ticks == (std::vector<double>{40.0, 80.0}), boost::test_tools::per_element());

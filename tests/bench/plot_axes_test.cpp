@@ -12,7 +12,7 @@ Box box_of_note(const PlacedNote& note, double font) {
   return {note.at[0] - half_width, note.at[1] - half_height, note.at[0] + half_width, note.at[1] + half_height};
 }
 
-/// Curves as those of bench time: they cross and run along each other.
+/// Curves like those of bench time: they cross and overlap.
 BenchPanel crowded() {
   BenchPanel panel{"seconds", "error"};
   for (int order = 1; order <= 4; ++order) {
@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(notes_meet_neither_each_other_nor_points_nor_the_frame) {
                   slope_beside(panel.curves[1], -2.0, "N^{-2}", 0.5)};
   const PlotAxes axes = axes_of(panel, 186.0, 165.0);
   const std::vector<PlacedNote> notes = place_notes(panel, axes, font);
-  // Most have found a place.
+  // Most notes have been placed.
   BOOST_TEST(notes.size() >= 12);
   for (std::size_t i = 0; i < notes.size(); ++i) {
     const Box box = box_of_note(notes[i], font);

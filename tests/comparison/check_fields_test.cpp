@@ -35,7 +35,7 @@ struct Frozen {
 
 double difference(const vehd::Matrix& a, const vehd::Matrix& b) { return (a - b).norm() / b.norm(); }
 
-/// As above in a shear and with a viscosity ratio.
+/// The same scene in a shear and with a viscosity ratio.
 std::string scene_in_shear() {
   return "[shape]\nkind = 'radial'\nmodes = [{n = 2, m = 1, a = 0.2}, {n = 3, m = -2, a = 0.1}]\n"
          "[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n[fluid]\nviscosity_ratio = 3.0\n"
@@ -44,7 +44,7 @@ std::string scene_in_shear() {
          "[numerics]\norder = 8\ndt = 0.1\nend_time = 0.0\n";
 }
 
-/// Two equal ellipsoids, images of one another, at `centre` and at what it is with the opposite sign.
+/// Two equal ellipsoids, images of one another, at `centre` and at −`centre`.
 std::string pair_of(const std::string& axes, const vehd::Vector3& centre, const std::string& further) {
   const auto at = [](const vehd::Vector3& c) { return fmt::format("shape.centre = [{}, {}, {}]\n", c[0], c[1], c[2]); };
   return "[shape]\nkind = 'ellipsoid'\naxes = " + axes + "\n[membrane]\nbending_modulus = 0.1\nconductance = 1.0\n" +
@@ -55,13 +55,13 @@ std::string pair_of(const std::string& axes, const vehd::Vector3& centre, const 
 
 }  // namespace
 
-// Two equal orders have no difference, however wrong both are.
+// Two results of one order do not differ, however wrong both are.
 BOOST_AUTO_TEST_CASE(error_is_estimated_from_another_order_at_every_order) {
   for (const bool quick : {false, true}) {
     for (int order = vehd::lowest_order; order <= vehd::highest_order; ++order) {
       const int other = vehd::estimate_order(order, quick);
       BOOST_TEST(other >= order + 2, order);
-      // A lead of fewer degrees says little about what is left, and memory grows with the fourth power.
+      // A few degrees more say little about the remaining error, and memory grows with the fourth power of the degree.
       if (!quick) BOOST_TEST(other >= std::min(2 * order, order + 16), order);
       BOOST_TEST(other <= std::max(vehd::highest_order, order + 16), order);
     }
@@ -84,13 +84,13 @@ BOOST_AUTO_TEST_CASE(order_of_the_run_gives_the_numbers_of_the_run) {
     BOOST_TEST(difference(fields.tension, stored.tension) < 1e-6);
     BOOST_TEST(difference(fields.force_tension, stored.force_tension) < 1e-6);
     BOOST_TEST(difference(fields.velocity_of_shape, stored.velocity) < 1e-6);
-    // What truncation of the forces costs stands between the run's velocity and that of the forces in its file.
+    // The velocities of the run and of the forces in its file differ by the truncation of the forces.
     BOOST_TEST(difference(fields.velocity + fields.velocity_truncation, stored.velocity) < 1e-6);
     BOOST_TEST(fields.velocity_truncation.norm() > 1e-6 * stored.velocity.norm());
   }
 }
 
-// The elements take G_m of the file, where a membrane that conducts differently from place to place has all of it.
+// The elements take G_m from the file, which holds all of it if the membrane's own conductance varies spatially.
 BOOST_AUTO_TEST_CASE(truncation_of_the_conductance_of_pores_is_known) {
   Frozen frozen(
       "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\n"
@@ -123,8 +123,8 @@ BOOST_AUTO_TEST_CASE(settings_of_the_run_count) {
   BOOST_TEST(difference(frozen.at(6).force_bending, as_run.force_bending) > 1e-6);
 }
 
-// They ended the check: beside parts of the membrane that are as near, or at a degree too low for the shape, the layers
-// cannot be evaluated.
+// Regression: such points ended the check. Beside parts of the membrane that are equally near, or at a degree too low
+// for the shape, the layers cannot be evaluated.
 BOOST_AUTO_TEST_CASE(points_without_a_value_are_told_by_it) {
   const std::string still = "[membrane]\nbending_modulus = 1.0\n[numerics]\ndt = 0.002\nend_time = 0.0\n";
   vehd::Index unknown = 0;
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(points_without_a_value_are_told_by_it) {
   BOOST_TEST(unknown > 0);
 }
 
-// Between fluids of different viscosity as well: a higher degree finds the same velocity inside and outside.
+// Also between fluids of different viscosity, a higher degree finds the same velocity inside and outside.
 BOOST_AUTO_TEST_CASE(velocity_off_the_membrane_is_found_at_another_viscosity_inside) {
   const Frozen frozen(scene_in_shear());
   const vehd::CheckSamples samples = vehd::check_samples(frozen.position());

@@ -22,7 +22,7 @@ const std::string start =
     "[electric]\nfield = [0.0, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\npermittivity = 1.0\n";
 const std::string numerics = "[numerics]\norder = 4\ndt = 0.1\nend_time = 0.0\n";
 
-/// The run.h5 of a scene, with its start alone.
+/// The run.h5 of a scene, holding only its start.
 class StartedRun {
  public:
   explicit StartedRun(const std::string& scene) {
@@ -40,7 +40,7 @@ class StartedRun {
     fields = reader.members(vesicles.front() + "/coefficients");
   }
 
-  /// A copy, changed and sealed anew where that is possible. @returns why it is refused; "" if it is read
+  /// Changes a copy and reseals it if possible. @returns why it is refused; "" if it is read
   [[nodiscard]] std::string refusal(const std::function<void(hid_t)>& change) {
     const std::string copy = directory_ / "damaged.h5";
     std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing);
@@ -49,7 +49,7 @@ class StartedRun {
       reseal(copy, "/");
       reseal(copy, group);
     } catch (const std::runtime_error&) {
-      // What its checksum is made of is not there.
+      // An object that enters the checksum is missing.
     }
     try {
       const vehd::FrozenState frozen = read(copy);
@@ -74,7 +74,7 @@ class StartedRun {
 
  private:
   static vehd::FrozenState read(const std::string& file) { return vehd::read_frozen_state({file, {}}, std::nullopt); }
-  /// All that was read, one after the other.
+  /// All numbers that were read, in one sequence.
   static std::vector<double> numbers_of(const vehd::FrozenState& frozen) {
     std::vector<double> all;
     const auto take = [&](const vehd::Matrix& m) { all.insert(all.end(), m.data(), m.data() + m.size()); };
@@ -106,7 +106,7 @@ class StartedRun {
 
 }  // namespace
 
-// A missing field was an empty one, and ended the check somewhere else.
+// Regression: a missing field was read as an empty one, and the check ended elsewhere.
 BOOST_AUTO_TEST_CASE(fields_that_are_missing_or_have_another_name_are_named) {
   const std::string by_place =
       "[membrane.capacitance_by_place]\nkind = 'harmonics'\nmodes = [{n = 1, m = 0, a = 0.1}]\n"
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(fields_that_are_missing_or_have_another_name_are_named) {
     for (const std::string& vesicle : run.vesicles) {
       for (const std::string& field : run.fields) {
         const std::string dataset = vesicle + "/coefficients/" + field;
-        // It is written for pictures and for other programs.
+        // This field is written for pictures and for other programs.
         const bool is_read = field != "area_strain";
         for (const char* new_name : {"", "2"}) {
           const std::string refusal = run.refusal([&](hid_t file) {
@@ -168,7 +168,7 @@ BOOST_AUTO_TEST_CASE(scene_of_other_vesicles_than_the_snapshots_have_is_refused)
   BOOST_TEST(of_two.refusal(take_scene_of(of_one)) == "has 2 vesicles in its snapshots, and its scene has 1");
 }
 
-// They met a mesher that knows no file, or a solve that ended with "relative residual -nan".
+// Regression: a mesher failed without naming the file, or a solve ended with "relative residual -nan".
 BOOST_AUTO_TEST_CASE(shapes_that_enclose_nothing_are_named) {
   StartedRun run(start + numerics);
   const std::string dataset = run.group + "/coefficients/x";
@@ -220,7 +220,7 @@ BOOST_AUTO_TEST_CASE(fields_that_the_elements_do_not_know_are_refused) {
 
 namespace {
 
-/// A run of degree 12 that was solved in degree 8: its coefficients above are zero.
+/// A run of degree 12 that was solved in degree 8: its higher coefficients are zero.
 void write_padded_run(const std::string& path, const std::string& scene, const vehd::FrozenState& solved) {
   const vehd::SphereTransform transform(12, vehd::make_grid(12));
   vehd::Hdf5Writer file(path, vehd::Hdf5Writer::Mode::create);
@@ -233,8 +233,8 @@ void write_padded_run(const std::string& path, const std::string& scene, const v
 
 }  // namespace
 
-// With a tolerance the file has the highest degree, and a state is solved in a lower one. Solved anew in that of the
-// file every number differed by all that the lower one leaves out.
+// With a tolerance the file has the highest degree, and a state is solved in a lower one. Regression: recomputed in the
+// degree of the file, every number differed by the truncation of the lower one.
 BOOST_AUTO_TEST_CASE(snapshot_has_the_degree_that_it_was_solved_in) {
   const TemporaryDirectory directory;
   const auto scene = [](const std::string& numerics) {

@@ -37,7 +37,7 @@ BOOST_AUTO_TEST_CASE(degrees_beyond_those_of_layers_find_what_is_left_of_bent_en
   BOOST_TEST(difference(fine, finest) < 1e-5);
 }
 
-// A few degrees more change f_b by a part of what is left of it, and by how much less nobody knows.
+// A few degrees more change f_b by only a part of the remaining error, and that part is unknown.
 BOOST_AUTO_TEST_CASE(other_degree_of_f_b_is_high_where_that_of_the_layers_is_not) {
   const vehd::FrozenState prolate = frozen("[1.0, 1.0, 3.0]", 24);
   vehd::CheckProblem problem = vehd::check_problem(prolate);

@@ -19,7 +19,7 @@
 
 namespace {
 
-/// Units, amplitudes, two vesicles, pores and places among them.
+/// Scenes with units, amplitudes, two vesicles, pores and spatially varying properties among them.
 const std::vector<std::string> scenes = {"ac_field_averaged", "figure2", "two_prolates",
                                          "poration",          "pump",    "relaxation"};
 
@@ -27,7 +27,7 @@ struct WrittenRun {
   TemporaryDirectory directory;
   std::string file = directory / "out/run.h5";
 
-  /// The start of a scene that comes with the program, at a low degree.
+  /// Writes the start of a shipped scene at a low degree.
   explicit WrittenRun(const std::string& name) {
     const auto shipped = std::ranges::find(vehd::shipped_scenes(), name, &vehd::ShippedScene::name);
     const vehd::Scene scene = vehd::parse_scene(shortened_scene(std::string(shipped->text)), name, directory / "");
@@ -38,7 +38,7 @@ struct WrittenRun {
     run.end({.completed = false, .reason = "of a test"});
   }
 
-  /// Of everything but coefficients, which are the originals.
+  /// Paths of the copies: of all datasets but the coefficients, which are the originals.
   [[nodiscard]] std::vector<std::string> copies() const {
     const vehd::Hdf5Reader reader{std::filesystem::path(file)};
     std::vector<std::string> paths;
@@ -50,7 +50,7 @@ struct WrittenRun {
     return paths;
   }
 
-  /// As a program would have written it that is wrong.
+  /// Renews the checksums, as if a faulty program had written the file.
   void seal() const {
     vehd::testing::reseal(file, "/");
     vehd::testing::reseal(file, "/snapshots/000000");
@@ -66,7 +66,7 @@ struct WrittenRun {
   }
 };
 
-/// Whether that makes another value of any.
+/// Multiplies a dataset by a factor. @return whether that changes any value
 bool scale(const std::string& file, const std::string& dataset, double factor) {
   const vehd::Hdf5Handle handle(H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
   const vehd::Hdf5Handle data(H5Dopen2(handle.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose);
@@ -79,7 +79,7 @@ bool scale(const std::string& file, const std::string& dataset, double factor) {
   return values != before;
 }
 
-/// An attribute in place of the one of its name.
+/// Replaces the attribute of this name.
 void set_attribute(const std::string& file, const std::string& object, const char* name, double value) {
   const vehd::Hdf5Handle handle(H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
   BOOST_TEST_REQUIRE(H5Adelete_by_name(handle.id(), object.c_str(), name, H5P_DEFAULT) >= 0);
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(every_copy_that_does_not_follow_from_coefficients_is_named)
     BOOST_TEST(copies.size() > 15U);
     for (const std::string& copy : copies) {
       for (const double factor : {2.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-        // What vanishes stays what it is.
+        // A factor does not change zeros.
         if (!scale(run.file, copy, factor)) continue;
         run.seal();
         const std::string refusal = run.refusal();

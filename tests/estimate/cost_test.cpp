@@ -17,7 +17,7 @@ namespace {
 
 const std::vector<double> tolerances{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
 
-/// So much that steps alone limit the trial run.
+/// Large enough that the trial run is limited by steps alone.
 constexpr double enough_seconds = 1e6;
 
 vehd::Scene read(const std::string& text) {
@@ -26,7 +26,7 @@ vehd::Scene read(const std::string& text) {
   return vehd::read_scene(directory / "scene.toml");
 }
 
-/// What a whole run takes.
+/// Steps and degree of a complete run.
 struct Taken {
   double steps = 0.0;
   int order = 0;
@@ -48,7 +48,7 @@ Taken taken(const vehd::Scene& scene, double tolerance) {
   return result;
 }
 
-/// By how much a prediction is wrong, up or down.
+/// Factor by which a prediction is wrong, in either direction.
 double factor(double predicted, double truth) { return std::max(predicted / truth, truth / predicted); }
 
 }  // namespace
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(every_digit_has_a_price_and_no_digit_is_free) {
       BOOST_TEST(rows[i].stops == "");
       BOOST_TEST(rows[i].seconds > rows[i].file_seconds);
       BOOST_TEST(rows[i].memory_bytes > 1000000);
-      // Only the trial run itself is measured, and only if it comes to the end.
+      // Only the trial run itself is measured, and only if it reaches the end.
       BOOST_TEST(rows[i].measured == (i == 0 && steps > 1));
       if (i == 0) continue;
       BOOST_TEST(rows[i].order > rows[i - 1].order);
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(the_trial_run_takes_the_steps_of_the_run) {
   BOOST_TEST(row.order == truth.order);
 }
 
-// A run of equal halves, of which the beginning tells.
+// Both halves of this run behave alike, so its beginning predicts the rest.
 BOOST_AUTO_TEST_CASE(the_beginning_of_a_run_predicts_the_rest) {
   const vehd::Scene scene = read(
       "[shape]\nkind = \"ellipsoid\"\naxes = [1.5, 1, 1]\n[membrane]\nbending_modulus = 0.1\n[flow]\nkind = "
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(steps_and_degrees_of_the_same_trial_steps_do_not_depend_on_
   }
 }
 
-// The degree of the scene is the highest that its own tolerance may take.
+// The degree of the scene is an upper bound for its own tolerance.
 BOOST_AUTO_TEST_CASE(a_scene_with_a_tolerance_keeps_its_degree) {
   vehd::Scene scene = read(std::regex_replace(quick_scene("1.0"), std::regex("\ndt = .*"), "\ntolerance = 1e-4"));
   scene.numerics.order = 12;
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_SUITE_END()
 
 BOOST_AUTO_TEST_SUITE(prediction, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
-// The promise of `vehd plan --menu`, without a clock: nine of ten rows of the shipped scenes.
+// The accuracy promised for `vehd plan --menu`, independent of timing: nine of ten rows of the shipped scenes.
 BOOST_AUTO_TEST_CASE(nine_of_ten_rows_of_the_shipped_scenes_are_within_a_factor_of_two) {
   int n_rows = 0, n_wrong = 0;
   for (const auto& shipped : vehd::shipped_scenes()) {

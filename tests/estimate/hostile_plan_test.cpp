@@ -9,7 +9,7 @@ BOOST_AUTO_TEST_SUITE(hostile_plan)
 
 namespace {
 
-/// Line 1 is [shape]; the keys of [numerics] come with the degree and the end of a short run.
+/// Line 1 is [shape]; [numerics] holds the degree 6 and `keys`, which set the end of a short run.
 std::string scene_with_numerics(const std::string& keys, const std::string& more = "") {
   return "[shape]\nkind = 'ellipsoid'\naxes = [1, 1, 1.5]\n[membrane]\nbending_modulus = 0.1\n[numerics]\norder = 6\n" +
          keys + more;
@@ -17,7 +17,7 @@ std::string scene_with_numerics(const std::string& keys, const std::string& more
 
 const std::string kField = "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\n";
 
-/// With the cost, measured in so many seconds or a little more.
+/// Plan with the cost, measured within the given seconds or slightly more.
 vehd::RunPlan planned(const std::string& text, double seconds = 2.0) {
   const vehd::Scene scene = parsed(text);
   vehd::RunPlan plan = vehd::plan_of(scene);
@@ -27,7 +27,7 @@ vehd::RunPlan planned(const std::string& text, double seconds = 2.0) {
 
 }  // namespace
 
-// Walked through one by one these take minutes, which the time limit of the tests would end.
+// Stepping through the jumps one by one would take minutes and exceed the time limit of the tests.
 BOOST_AUTO_TEST_CASE(many_jumps_are_counted_without_looking_at_each) {
   const std::string train = kField + "[electric.waveform]\nkind = 'pulse_train'\nduration = 1e-9\nperiod = 4e-9\n";
   const vehd::RunPlan adaptive = planned(scene_with_numerics("tolerance = 1e-2\nend_time = 1\n", train));
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(a_table_of_many_jumps_is_planned) {
   }
 }
 
-// Without time nothing is known, which says nothing of the run.
+// Without measuring time the cost is unknown, which is no statement about the run.
 BOOST_AUTO_TEST_CASE(what_there_is_no_time_for_is_unknown) {
   for (const char* keys : {"dt = 0.1\nend_time = 1\n", "tolerance = 1e-2\nend_time = 1\n"}) {
     const vehd::RunPlan plan = planned(scene_with_numerics(keys, kField), 0.0);
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(what_there_is_no_time_for_is_unknown) {
   }
 }
 
-// Trial runs have lower degrees than the scene, which the modes of its shape and its membrane may exceed.
+// Trial runs use lower degrees than the scene; modes of the shape and the membrane may exceed them.
 BOOST_AUTO_TEST_CASE(modes_of_a_higher_degree_than_that_of_trial_runs) {
   const std::string text =
       "[shape]\nkind = 'radial'\nmodes = [{n = 30, m = 0, a = 0.02}]\n[membrane]\nbending_modulus = 0.1\n"
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(modes_of_a_higher_degree_than_that_of_trial_runs) {
   BOOST_CHECK_NO_THROW(planned(text + "dt = 1e-4\nend_time = 1e-4\n"));
 }
 
-// The largest and the smallest numbers that a key takes.
+// Largest and smallest numbers accepted by each key.
 BOOST_AUTO_TEST_CASE(every_number_that_is_accepted_can_be_planned) {
   int count = 0;
   for (const vehd::KeyDescription& key : vehd::scene_keys()) {

@@ -12,8 +12,8 @@ namespace {
 using vehd::fem_check::TimeLaw;
 using vehd::fem_check::Vector;
 
-/// V' = −λ (V − cos t) − sin t of a slow and a very fast λ, whose solution is cos t + c exp(−λt); the part that is not
-/// stiff may be taken explicitly.
+/// V' = −λ (V − cos t) − sin t for a slow and a very fast λ, with the solution cos t + c exp(−λt); the non-stiff part
+/// may be taken explicitly.
 TimeLaw relaxation(const Vector& lambda, bool splits) {
   TimeLaw law;
   const auto drift = [](double time) { return -std::sin(time); };

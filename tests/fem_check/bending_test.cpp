@@ -33,13 +33,13 @@ struct ProlateCurvature {
     laplacian = e * std::pow(g, -0.5) * ((1.0 - 3.0 * z * z) * slope + (z - z * z * z) * bend);
   }
 
-  /// Force along n of κ_B ∫ (H − c)² dA.
+  /// Normal component of the force of κ_B ∫ (H − c)² dA.
   [[nodiscard]] double force(double c) const {
     return -kModulus * (laplacian + 2.0 * mean * (mean * mean - gauss)) - 2.0 * kModulus * c * (gauss - c * mean);
   }
 };
 
-/// x^i y^j z^k e_d of degree up to 2: smooth displacements.
+/// Displacement x^i y^j z^k e_d of degree up to 2.
 struct Displacement {
   int i, j, k, direction;
   Vector3 operator()(const Vector3& x) const {
@@ -59,7 +59,7 @@ std::vector<Displacement> displacements() {
   return result;
 }
 
-/// −δE_b of the elements along the displacements.
+/// −δE_b of the elements for the displacements.
 Vector work_of_elements(const meshes::VolumeMesh& mesh, int degree, const BendingEnergy& energy) {
   const BendingElements elements(mesh, degree);
   const Vectors& x = elements.surface().positions();
@@ -87,7 +87,7 @@ Vector work_on_prolate(double c) {
   return result;
 }
 
-/// Rows monomial, component, ∫ f_b·w dA of tests/data/bending_shape_33.csv at κ_B = 1.
+/// ∫ f_b·w dA of tests/data/bending_shape_33.csv at κ_B = 1; rows are monomial, component, value.
 Vector stored_work() {
   std::ifstream file("tests/data/bending_shape_33.csv");
   BOOST_REQUIRE(file);
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(functional_is_minus_the_derivative_of_the_discrete_energy) 
   for (const int degree : {2, 4}) {
     const BendingElements elements(mesh, degree);
     Vectors x = elements.surface().positions();
-    // Off the shape, so that nothing vanishes by symmetry.
+    // Perturbed away from the shape, so that nothing vanishes by symmetry.
     for (double& value : x.reshaped()) value += 0.02 * normal(random);
     for (const double c : {0.0, -0.6}) {
       const BendingEnergy energy{kModulus, c};
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(functional_is_minus_the_derivative_of_the_discrete_energy) 
 }
 
 BOOST_AUTO_TEST_CASE(sphere_has_the_energy_and_the_force_of_the_formula) {
-  // E = 4π κ_B (1 + cR)²: nothing pulls but for the spontaneous curvature, and that along the radius.
+  // E = 4π κ_B (1 + cR)²: the force vanishes without spontaneous curvature and is radial with it.
   const double radius = 1.2;
   const Vector3 centre(0.4, -1.3, 0.7);
   const BendingElements elements(membrane_mesh(shapes::off_centre_sphere(), 2), 7);

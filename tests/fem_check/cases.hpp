@@ -15,7 +15,7 @@ namespace vehd::fem_check::testing {
 namespace meshes = vehd::meshes;
 namespace shapes = vehd::meshes::testing;
 
-/// Refinement of a block mesh by one number: cells per edge, and layers in proportion.
+/// Refinement of a block mesh by one number: cells per edge, with layers in proportion.
 struct OneMesh {
   int cells_per_edge = 2;
   int blend_layers = 1;
@@ -33,7 +33,7 @@ inline Discretisation discretise(const meshes::FrozenShape& shape, const OneMesh
   return {std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, options)), level.degree, ranks};
 }
 
-/// A mesh of which the membrane is what matters.
+/// A mesh of which only the membrane is used.
 inline meshes::HexMesh membrane_mesh(const meshes::FrozenShape& shape, int cells_per_edge) {
   meshes::BlockMeshOptions options;
   options.cells_per_edge = cells_per_edge;
@@ -46,7 +46,7 @@ inline meshes::FrozenShape unit_sphere() {
   return meshes::FrozenShape(meshes::testing::project(1, [](const meshes::Point& r) { return r; }));
 }
 
-constexpr double kDepolarisation = 0.17356399;  ///< of the 2:1 prolate along its axis
+constexpr double kDepolarisation = 0.17356399;  ///< for the 2:1 prolate along its axis
 
 /// 1/(4π|x − y|) and its gradient in x.
 struct PointSource {
@@ -62,7 +62,7 @@ struct PointSource {
   }
 };
 
-/// One value per point from a function of position and normal.
+/// One scalar per point from a function of position and normal.
 template <typename Function>
 Vector sampled(const SurfacePoints& points, const Function& f) {
   Vector result(points.size());
@@ -92,7 +92,7 @@ ScalarOnSurface on_surface(const Function& f) {
   return [f](const SurfacePoints& points) { return sampled(points, f); };
 }
 
-/// φ of a source outside γ in the inside, φ of a source inside γ in the outside; σ_i = 1, σ_e = 2.
+/// φ of a source outside γ on the inside and of a source inside γ on the outside; σ_i = 1, σ_e = 2.
 struct TwoSources {
   PointSource inner_field;  ///< source outside
   PointSource outer_field;  ///< source inside
@@ -109,7 +109,7 @@ struct TwoSources {
     };
     return stress(inner_field.gradient(x)) - stress(outer_field.gradient(x));
   }
-  /// The problem with everything given but the membrane.
+  /// The problem without its membrane law.
   [[nodiscard]] PotentialProblem problem() const {
     PotentialProblem result;
     result.conductivity_in = conductivity_in;

@@ -10,7 +10,7 @@ namespace {
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
 
-/// V_m after equal steps from V_m = start·x in a field that grows: E (1 + t).
+/// V_m after equal steps from V_m = start·x in the growing field E (1 + t).
 Vector charged(const Discretisation& space, const PotentialProblem& membrane, const Vector3& start,
                const TimeSteps& steps) {
   PotentialProblem problem = membrane;

@@ -5,16 +5,16 @@
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
 
-/// Coefficients that differ by many powers of ten, against exact solutions on the sphere; and that the tolerance of the
-/// linear solver is what it leaves in the fields that are compared.
+/// Coefficients differing by many powers of ten, against exact solutions on the sphere; also checks that the solver
+/// tolerance bounds the error in the compared fields.
 BOOST_AUTO_TEST_SUITE(contrast)
 
 namespace {
 
-/// With one so near to 1 that 1/σ_i − 1/σ_e is wrong by a hundredth.
+/// One ratio is so near 1 that 1/σ_i − 1/σ_e has a relative error of a hundredth.
 constexpr double kRatios[] = {1e-8, 1e-4, 1.0 - 1.01e-14, 1e4, 1e7, 1e8};
 
-/// V_m = V cos θ given on the unit sphere in a unit field along z: φ_i = −a r cos θ, φ_e = (−r + b/r²) cos θ.
+/// V_m = V cos θ prescribed on the unit sphere in a unit field along z: φ_i = −a r cos θ, φ_e = (−r + b/r²) cos θ.
 struct GivenVoltage {
   double ratio;  ///< σ_i/σ_e
   double voltage = 0.7;
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(error_of_the_linear_solver_is_what_it_says_at_every_conduct
     problem.tolerance = 1e-7;
     const PotentialSolution loose = solve_potential(space, problem);
     BOOST_TEST(loose.cost().solver_error <= 1e-7);
-    // Energies of the better conductor stand in the norm beside those of the other one: a factor √ratio at worst.
+    // The norm contains the energies of both conductors, the better one dominating: a factor √ratio at worst.
     const PotentialTraces traces = loose.on_surface(points);
     const double allowed = 1e-5 * std::max(1.0, std::sqrt(1.0 / ratio));
     BOOST_TEST_CONTEXT("σ_i/σ_e = " << ratio) {
@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(voltage_of_a_membrane_law_at_every_conductivity_ratio) {
 }
 
 BOOST_AUTO_TEST_CASE(flow_divides_force_and_strain_at_every_viscosity_ratio) {
-  // r̂ × ∇Y of degree 1 and 2: a rotation inside, which a stiff drop does not resist, and a twist, which it does.
+  // r̂ × ∇Y of degree 1, a rotation, which a stiff drop does not resist, and of degree 2, a twist, which it does.
   const Discretisation space = discretise(unit_sphere(), {.degree = 4});
   const SurfacePoints points = space.quadrature_points(6);
   const Matrix3 strain = Vector3(0.3, 0.5, -0.8).asDiagonal();
@@ -118,11 +118,11 @@ BOOST_AUTO_TEST_CASE(flow_divides_force_and_strain_at_every_viscosity_ratio) {
     problem.gradient = strain;
     const Vectors strained = solve_flow(space, problem).velocity(space.locate(Vector3(0.2, -0.3, 0.1)));
     BOOST_TEST_CONTEXT("μ_i/μ_e = " << ratio) {
-      // Elements of degree k on cells of degree k + 1 do not hold a rotation exactly: a drop that resists the rest of
-      // it 1e8 times as much as the fluid around it turns too slowly.
+      // Elements of degree k on cells of degree k + 1 do not represent a rotation exactly: a drop 1e8 times as viscous
+      // as the fluid around it resists the rest of it and turns too slowly.
       if (ratio <= 1e4) BOOST_TEST(relative_l2(points, rotation, exact) < 1e-3);
       BOOST_TEST(relative_l2(points, twist, exact_twist) < 1e-3);
-      // 5 μ_e/(3 μ_e + 2 μ_i) of the rate of strain far away: next to nothing in a stiff drop.
+      // The strain inside is 5 μ_e/(3 μ_e + 2 μ_i) of the rate far away: almost zero in a stiff drop.
       const Vector3 inside = 5.0 / (3.0 + 2.0 * ratio) * strain * Vector3(0.2, -0.3, 0.1);
       BOOST_TEST((strained.col(0) - inside).norm() < 1e-3 * (strain * Vector3(0.2, -0.3, 0.1)).norm());
     }

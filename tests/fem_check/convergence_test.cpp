@@ -40,7 +40,7 @@ Errors errors_on_sphere(const OneMesh& level) {
 BOOST_AUTO_TEST_SUITE(convergence, *boost::unit_test::label("slow"))
 
 BOOST_AUTO_TEST_CASE(potential_gains_degree_plus_one_and_flux_degree) {
-  // Three levels with the layers in proportion to the cells per edge.
+  // Three levels with layers in proportion to the cells per edge.
   for (const int degree : {2, 3}) {
     std::vector<Errors> errors;
     for (const int n : {2, 4, 6}) {

@@ -35,7 +35,7 @@ BOOST_AUTO_TEST_CASE(angles_are_those_of_the_direction) {
 BOOST_AUTO_TEST_CASE(every_point_of_a_lattice_is_found_again) {
   const Discretisation space = discretise(shapes::shape_33(), {.degree = 3});
   const VolumePoints lattice = space.volume_lattice(2);
-  std::vector<Eigen::Index> middles;  // of cells, which lie in one cell only
+  std::vector<Eigen::Index> middles;  // of cells; each lies in one cell only
   for (int c = 0; c < space.n_cells(); ++c) middles.push_back(27 * c + 13);
   const VolumePoints found = space.locate(lattice.position(Eigen::all, middles));
   for (int c = 0; c < space.n_cells(); ++c) {

@@ -28,7 +28,7 @@ struct Mode {
     if (family == Family::decaying) return gradient + degree * y * x;
     return x.cross(gradient);
   }
-  /// Of the single layer at μ = 1.
+  /// Eigenvalue of the single layer at μ = 1.
   [[nodiscard]] double eigenvalue() const {
     const double n = degree;
     if (family == Family::growing) return n / ((2.0 * n + 1.0) * (2.0 * n + 3.0));
@@ -42,7 +42,7 @@ struct Mode {
 BOOST_AUTO_TEST_SUITE(exact_flow)
 
 BOOST_AUTO_TEST_CASE(single_layer_of_the_sphere_has_the_eigenvalues_of_the_vector_harmonics) {
-  // Degree 1 carries a net force (decaying) and a net torque (toroidal).
+  // Degree 1 includes a net force (decaying) and a net torque (toroidal).
   const Discretisation space = discretise(unit_sphere(), {.degree = 3});
   const SurfacePoints points = space.quadrature_points(6);
   for (const int degree : {1, 2}) {
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(toroidal_flow_divides_the_force_between_the_two_viscosities
 }
 
 BOOST_AUTO_TEST_CASE(drop_without_tension_strains_as_the_inclusion_formula_says) {
-  // A sphere that transmits all traction: inside the rate of strain is 5 μ_e/(3 μ_e + 2 μ_i) of that far away.
+  // A sphere transmitting the full traction: the rate of strain inside is 5 μ_e/(3 μ_e + 2 μ_i) of that far away.
   const Discretisation space = discretise(unit_sphere(), {.degree = 3});
   Vectors sample(3, 3);
   sample << 0.1, 0.5, -0.3, 0.2, -0.4, 0.6, 0.3, 0.2, 0.1;
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(drop_without_tension_strains_as_the_inclusion_formula_says)
 }
 
 BOOST_AUTO_TEST_CASE(normal_force_of_one_is_a_pressure_inside_and_no_flow) {
-  // [[−p n]] = n on any shape.
+  // [[−p n]] = n holds for every shape.
   const Discretisation space = discretise(shapes::shape_33(), {.degree = 3});
   const SurfacePoints points = space.quadrature_points(6);
   FlowProblem problem;

@@ -7,7 +7,7 @@ using namespace vehd::fem_check::testing;
 
 namespace {
 
-/// κ of the charging sphere.
+/// κ of the charging law of a sphere.
 double sphere_kappa(double in, double out) { return 2.0 * in * out / (in + 2.0 * out); }
 
 }  // namespace
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(sphere_charges_by_backward_euler) {
   BOOST_TEST(relative_l2(points, traces.flux_in, flux * points.position.row(2).transpose()) < 1e-4);
 }
 
-// V = v·x and E_i = e·x with C v − ε_i e = p and ε_e (3E − 2e − 2v) − C v = q for the charges p·x and q·x of the faces.
+// V = v·x and E_i = e·x with C v − ε_i e = p and ε_e (3E − 2e − 2v) − C v = q, for face charges p·x and q·x.
 BOOST_AUTO_TEST_CASE(potential_of_charged_faces_of_a_sphere_is_that_of_its_dipoles) {
   const Discretisation space = discretise(unit_sphere(), {.degree = 4});
   const SurfacePoints points = space.quadrature_points(7);
@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(insulating_membrane_takes_the_whole_potential_drop_when_ste
 }
 
 BOOST_AUTO_TEST_CASE(electric_force_on_the_sphere_is_the_one_of_the_formula) {
-  // Inside the field is uniform: E_n = E_i cos θ, E_t = −E_i sin θ.
+  // The field inside is uniform: E_n = E_i cos θ, E_t = −E_i sin θ.
   const Discretisation space = discretise(unit_sphere(), {.degree = 5});
   const SurfacePoints points = space.quadrature_points(8);
   const double ratio = 0.25;
@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(point_sources_on_shape_33_and_on_the_disc) {
     BOOST_TEST(relative_l2(points, traces.charge_from_gradient, sampled(points, charge)) < c.charge);
     BOOST_TEST(relative_l2(points, traces.force, sampled_vectors(points, force)) < c.force);
 
-    // The membrane law: one step of charging that ends at the exact jump.
+    // Membrane law: one charging step that ends at the exact jump.
     const double dt = 0.2;
     problem.membrane = ChargingMembrane{1.0, 0.0, dt, 1, on_surface([&](const Vector3& x, const Vector3& n) {
                                           return exact.jump(x) + dt * exact.conductivity_in * exact.flux_in(x, n);

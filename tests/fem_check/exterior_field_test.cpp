@@ -10,10 +10,10 @@ BOOST_AUTO_TEST_SUITE(exterior_field)
 
 namespace {
 
-/// Outer spheres so close that what they do wrong would be seen.
+/// Outer spheres so close that errors of their boundary condition are visible.
 constexpr double close_radius = 1.6;
 
-/// One harmonic of each degree, none special: Y and its gradient on the unit sphere.
+/// One generic harmonic of each degree: Y and its gradient on the unit sphere.
 class Harmonic {
  public:
   explicit Harmonic(int degree) : series_(coefficients(degree)) {}
@@ -34,7 +34,7 @@ class Harmonic {
   vehd::meshes::HarmonicSeries series_;
 };
 
-/// A force on the unit sphere, and the velocity over it at equal viscosities 1.
+/// A force on the unit sphere, and the ratio of velocity to force at equal viscosities 1.
 struct Mode {
   Vector3 force;
   double eigenvalue;
@@ -52,7 +52,7 @@ Discretisation close_sphere(int degree, double radius = close_radius) {
   return discretise(unit_sphere(), {.shell_layers = 1, .degree = degree, .outer_radius = radius});
 }
 
-/// Largest relative error of the velocity of all three forces of one degree.
+/// Largest relative velocity error over all three forces of one degree.
 double error_of_flows(const Discretisation& space, int degree, int exterior_degree) {
   const Harmonic harmonic(degree);
   const SurfacePoints points = space.quadrature_points(10);
@@ -69,7 +69,7 @@ double error_of_flows(const Discretisation& space, int degree, int exterior_degr
   return largest;
 }
 
-/// Of ∂φ_i/∂n for V_m = Y.
+/// Relative error of ∂φ_i/∂n for V_m = Y.
 double error_of_flux(const Discretisation& space, int degree, int exterior_degree) {
   const Harmonic harmonic(degree);
   const SurfacePoints points = space.quadrature_points(10);
@@ -86,7 +86,7 @@ double error_of_flux(const Discretisation& space, int degree, int exterior_degre
 
 }  // namespace
 
-// Degree 1 has the flows of a net force and of a net torque.
+// Degree 1 includes the flows of a net force and of a net torque.
 BOOST_AUTO_TEST_CASE(flows_are_exact_up_to_the_degree_however_close_the_outer_sphere_is) {
   const Discretisation space = close_sphere(5);
   for (const int degree : {1, 2, 3, 4}) {
@@ -134,8 +134,8 @@ BOOST_AUTO_TEST_CASE(charge_that_does_not_cancel_has_the_field_of_a_point) {
 }
 
 BOOST_AUTO_TEST_CASE(what_the_next_harmonic_leaves_falls_with_the_radius) {
-  // The prolate of no jump: the difference to the exact field inside, against that with the disturbance set to zero.
-  // It has harmonics of odd degree alone, so the next one is two further on.
+  // The prolate without a jump: error against the exact field inside, relative to that with the disturbance set to
+  // zero. Only odd harmonics occur, so the next one is two degrees higher.
   const auto error = [](double radius, OuterCondition::Kind kind, int exterior_degree) {
     const Discretisation space =
         discretise(shapes::prolate(), {.cells_per_edge = 3, .shell_layers = 4, .degree = 5, .outer_radius = radius});

@@ -6,19 +6,19 @@
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
 
-/// What few unknowns must reach on exact solutions, docs/weak_forms.md: errors relative in L2(γ), radiation condition
-/// at R = 8 radii.
+/// Accuracy required of few unknowns on exact solutions, docs/weak_forms.md: errors relative in L2(γ), radiation
+/// condition at R = 8 radii.
 namespace {
 
 constexpr long kMostUnknowns = 50000;
 
-/// φ and ∇φ of one side.
+/// φ and ∇φ on one side.
 struct SideTrace {
   double potential;
   Vector3 gradient;
 };
 
-/// A solution known on γ, of a steady membrane in a uniform field.
+/// A solution known on γ for a steady membrane in a uniform field.
 struct ExactMembrane {
   Vector3 field = Vector3::Zero();  ///< E_∞
   double conductivity_in = 1.0, conductivity_out = 1.0, conductance = 0.0;
@@ -34,7 +34,7 @@ struct ExactMembrane {
     const auto stress = [&](const Vector3& e) { return Vector3(e.dot(n) * e - 0.5 * e.squaredNorm() * n); };
     return stress(inside(x, n).gradient) - stress(outside(x, n).gradient);
   }
-  /// The problem with everything given but the membrane.
+  /// The problem without its membrane law.
   [[nodiscard]] PotentialProblem problem() const {
     PotentialProblem result;
     result.field = field;
@@ -50,8 +50,8 @@ struct ExactMembrane {
     result.membrane = PrescribedJump{on_surface([*this](const Vector3& x, const Vector3& n) { return jump(x, n); })};
     return result;
   }
-  /// Membrane law with a source, so that it holds for any solution: one step too long for the capacitance to matter
-  /// beside the conductance, from where it leads to the exact jump.
+  /// Membrane law with a source, so that it holds for any solution: a single step so long that the capacitance is
+  /// negligible against the conductance; it ends at the exact jump.
   [[nodiscard]] PotentialProblem membrane_law() const {
     constexpr double kStep = 1e3;
     PotentialProblem result = problem();
@@ -68,7 +68,7 @@ struct Grading {
   double shell_growth;
   int degree;
 };
-/// At degree 5; and at degree 6, with a layer of the shell less to spare unknowns.
+/// For degree 5, and for degree 6 with one shell layer fewer to save unknowns.
 constexpr Grading kThreeLayers{3, 3.0, 5}, kTwoLayers{2, 6.0, 6};
 
 Discretisation table_space(const vehd::meshes::FrozenShape& shape, const Grading& grading) {
@@ -81,7 +81,7 @@ Discretisation table_space(const vehd::meshes::FrozenShape& shape, const Grading
   return {std::make_shared<vehd::meshes::HexMesh>(vehd::meshes::make_block_mesh(shape, options)), grading.degree};
 }
 
-/// One row of the table: bounds of the errors of V_m by the membrane law, and of q and f_E with V_m prescribed.
+/// One row of the table: error bounds of V_m from the membrane law, and of q and f_E for prescribed V_m.
 struct Row {
   double voltage, charge, force;
 };
@@ -106,8 +106,8 @@ void check_row(const Discretisation& space, const ExactMembrane& exact, const Ro
   BOOST_TEST(force_error < row.force);
 }
 
-/// A spheroid about z with the depolarisation factor L in the field E along z. Inside φ = −A z; outside the disturbance
-/// is a z on γ and has the slope −a n_z (1 − L)/L there, and the current is continuous.
+/// A spheroid about z with the depolarisation factor L in the field E along z. Inside φ = −A z. Outside, the
+/// disturbance is a z on γ with the slope −a n_z (1 − L)/L; the current is continuous.
 ExactMembrane spheroid_in_field(double depolarisation) {
   constexpr double kField = 1.0;
   constexpr double kInside = 0.4;
@@ -128,9 +128,9 @@ ExactMembrane spheroid_in_field(double depolarisation) {
   return exact;
 }
 
-/// On any shape: inside the field of a source outside γ; outside a uniform field and `strength` Im 1/ρ,
-/// ρ² = (x − ia)·(x − ia), the potential of a source at the imaginary place ia. It is that of a dipole far away and
-/// singular on the circle of radius |a| around 0 across a alone, if the disc that this circle bounds lies inside γ.
+/// For any shape: inside, the field of a source outside γ; outside, a uniform field and `strength` Im 1/ρ, ρ² = (x −
+/// ia)·(x − ia), the potential of a source at the imaginary point ia. Far away it is a dipole, and if the disc of
+/// radius |a| about 0, normal to a, lies inside γ, it is singular only on the rim of that disc.
 ExactMembrane sources_in_field(const Vector3& a, double strength) {
   ExactMembrane exact;
   exact.field = {0.3, 0.5, 1.0};
@@ -147,7 +147,7 @@ ExactMembrane sources_in_field(const Vector3& a, double strength) {
   return exact;
 }
 
-/// Steady membrane in a uniform field on a conducting sphere: V_m and, by the law in proportion to it, q.
+/// Steady membrane in a uniform field on a conducting sphere: checks V_m and q, which the law makes proportional to it.
 void check_steady_sphere(const Discretisation& space) {
   const SurfacePoints points = space.quadrature_points(9);
   PotentialProblem problem;
@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(shape_33) {
 }
 
 BOOST_AUTO_TEST_CASE(disc) {
-  // 2|a|²/3π is the strength with which an insulating disc of radius |a| disturbs a unit field across it.
+  // 2|a|²/3π is the strength of the disturbance of a unit field by an insulating disc of radius |a| normal to it.
   const double a = 0.75;
   check_row(table_space(shapes::disc(), kTwoLayers),
             sources_in_field({0.0, 0.0, a}, 2.0 * a * a / (3.0 * std::numbers::pi)), kBent);

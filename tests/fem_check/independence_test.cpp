@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Two methods that agree prove something only if they share no numerics.
+/// Agreement of two methods is evidence only if they share no numerics.
 void shares_nothing(const std::filesystem::path& path) {
   static const std::regex include("#include +[\"<](\\.\\./)*bie/.*");
   static const std::regex solver_library(

@@ -95,8 +95,8 @@ BOOST_AUTO_TEST_CASE(velocity_and_tension_converge_with_the_mesh) {
 }
 
 BOOST_AUTO_TEST_CASE(traction_of_a_translating_ellipsoid_moves_it_without_tension) {
-  // A rigid ellipsoid that translates pulls on the fluid with a traction (n·x) times a constant vector: the membrane
-  // need not help, λ = 0, its mean included.
+  // A translating rigid ellipsoid exerts a traction (n·x) times a constant vector on the fluid: the membrane carries no
+  // tension, so λ = 0, its mean included.
   const Discretisation space = discretise(shapes::prolate(), {.shell_layers = 3, .degree = 4});
   const SurfacePoints points = space.quadrature_points(6);
   FlowProblem problem;
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(traction_of_a_translating_ellipsoid_moves_it_without_tensio
 }
 
 BOOST_AUTO_TEST_CASE(tension_balances_a_force_of_tension_and_nothing_moves) {
-  // f = −(2λHn + ∇_γλ) of a given λ, its constant included. Principal curvatures of the prolate with axes 1, 1, 2:
+  // f = −(2λHn + ∇_γλ) for a given λ, its constant included. Principal curvatures of the prolate with axes 1, 1, 2:
   // 2/g^(3/2) and 2/g^(1/2), g = 4 − 3 (z/2)².
   const Discretisation space = discretise(shapes::prolate(), {.shell_layers = 3, .degree = 4});
   const SurfacePoints points = space.quadrature_points(6);
@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(tension_balances_a_force_of_tension_and_nothing_moves) {
 }
 
 BOOST_AUTO_TEST_CASE(tension_of_a_nearly_round_membrane_is_as_precise_as_the_tolerance) {
-  // A constant hardly moves it, so that one that is left from the start is a small residual.
+  // A constant tension hardly moves this shape, so its error from the initial guess leaves only a small residual.
   const meshes::FrozenShape shape(
       shapes::project(1, [](const meshes::Point& r) { return meshes::Point(r.x(), 1.1 * r.y(), 1.25 * r.z()); }));
   OneMesh level{.cells_per_edge = 2, .shell_layers = 2, .degree = 3, .outer_radius = 4.0};
@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(units_change_nothing_but_the_units) {
 
 BOOST_AUTO_TEST_SUITE_END()
 
-/// Run by CTest under two ranks too.
+/// CTest also runs this suite on two ranks.
 BOOST_AUTO_TEST_SUITE(parallel)
 
 BOOST_AUTO_TEST_CASE(ranks_together_solve_the_inextensible_flow_as_one_alone) {

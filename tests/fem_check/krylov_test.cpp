@@ -4,14 +4,14 @@
 
 using namespace vehd::fem_check;
 
-/// Solvers that stop by the energy of the true residual.
+/// Solvers that stop on the energy of the true residual.
 BOOST_AUTO_TEST_SUITE(krylov)
 
 namespace {
 
 using Pair = dealii::Vector<double>;
 
-/// A diagonal matrix of two rows.
+/// A diagonal 2 x 2 matrix.
 struct Diagonal {
   double first, second;
 
@@ -32,9 +32,8 @@ Pair pair_of(double first, double second) {
 
 }  // namespace
 
-// The solver measures both components alike. Its first step removes the large one, which has next to no energy, and
-// makes the other one, which has nearly all of it, nine times as large: less than a hundredth of the first, where the
-// solver stops.
+// The solver measures both components equally. Its first step removes the large one, with almost no energy, and makes
+// the other, with nearly all of it, nine times as large: less than a hundredth of the first, so the solver stops there.
 BOOST_AUTO_TEST_CASE(energy_may_rise_before_it_falls) {
   const Diagonal a{1.0, 10.0}, energy{1e-8, 1.0};
   const Pair b = pair_of(1.0, 1e-3);

@@ -14,8 +14,8 @@ using namespace vehd::fem_check::testing;
 
 constexpr int series_degree = 4;
 
-/// dx/dt of an inextensible membrane of bending modulus ½ in the shear v = (z, 0, 0): coefficients, by least squares
-/// from the velocities of the finite elements.
+/// dx/dt of an inextensible membrane of bending modulus ½ in the shear v = (z, 0, 0): coefficients fitted by least
+/// squares to the finite-element velocities.
 Eigen::MatrixXd velocity_of(const Eigen::MatrixXd& position, int degree) {
   const Discretisation space =
       discretise(vehd::meshes::FrozenShape(position), {.cells_per_edge = 2, .shell_layers = 2, .degree = degree});
@@ -30,7 +30,7 @@ Eigen::MatrixXd velocity_of(const Eigen::MatrixXd& position, int degree) {
   return (weighted * basis.transpose()).ldlt().solve(weighted * velocity.transpose());
 }
 
-/// An ellipsoid after the time 0.4, by Heun's rule.
+/// An ellipsoid at time 0.4, by Heun's method.
 Eigen::MatrixXd moved(int steps, int degree) {
   Eigen::MatrixXd position = shapes::project(series_degree, [](const vehd::meshes::Point& r) {
     return vehd::meshes::Point(r.cwiseProduct(Vector3(1.0, 1.1, 1.25)));
@@ -59,8 +59,7 @@ Vector3 extents(const Eigen::MatrixXd& position) {
 
 }  // namespace
 
-// The extents of the boundary integrals are those of a run of degree 14 with steps 0.05 of order 3; degree 10 differs
-// by 1e-6.
+// The boundary-integral extents come from a run of degree 14 with steps 0.05 of order 3; degree 10 differs by 1e-6.
 BOOST_AUTO_TEST_CASE(vesicle_in_shear_goes_where_the_boundary_integrals_take_it) {
   const Vector3 by_boundary_integrals(2.249306, 2.191297, 2.289468);
   const Vector3 at_start(2.0, 2.2, 2.5);

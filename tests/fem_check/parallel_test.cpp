@@ -6,7 +6,7 @@
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
 
-/// CTest runs this suite under mpirun with two and four ranks: together they must find what each finds alone.
+/// CTest runs this suite under mpirun with two and four ranks: the collective result must equal that of a single rank.
 BOOST_AUTO_TEST_SUITE(parallel)
 
 BOOST_AUTO_TEST_CASE(ranks_together_solve_the_potential_as_one_alone) {

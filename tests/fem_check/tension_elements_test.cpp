@@ -32,7 +32,7 @@ double inf_sup(const meshes::VolumeMesh& mesh, int velocity_degree, int tension_
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(nodes_of_a_closed_surface_are_shared_between_its_faces) {
-  // Euler: F faces of four corners have F + 2 vertices and 2F edges.
+  // Euler: F quadrilateral faces have F + 2 vertices and 2F edges.
   const meshes::HexMesh mesh = sphere_mesh(2);
   const auto n_faces = static_cast<Eigen::Index>(mesh.interface().size());
   for (const int degree : {1, 2, 5}) BOOST_TEST(FaceNodes(mesh, degree).size() == n_faces * degree * degree + 2);
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(equal_degrees_are_not_stable) {
 }
 
 BOOST_AUTO_TEST_CASE(work_of_a_tension_is_the_change_of_area_that_it_weighs) {
-  // Of the displacement x every area element doubles its logarithm: ∇_γ·x = 2.
+  // Under the displacement x every area element changes at the relative rate ∇_γ·x = 2.
   const meshes::HexMesh mesh = sphere_mesh(2);
   const TensionElements elements(mesh, 4, 3);
   const SurfaceElements surface(mesh, 4, 6);
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(work_of_a_tension_is_the_change_of_area_that_it_weighs) {
   const Vector doubled = 2.0 * elements.mass() * Vector::Ones(elements.mass().cols());
   BOOST_TEST((expansion - doubled).norm() < 1e-3 * doubled.norm());
   BOOST_TEST((elements.divergence_of_linear_flow(Matrix3::Identity()) - doubled).norm() < 1e-12 * doubled.norm());
-  // Rotations expand nothing.
+  // Rotations do not change area.
   Matrix3 spin = Matrix3::Zero();
   spin(0, 1) = 1.0;
   spin(1, 0) = -1.0;

@@ -33,20 +33,20 @@ Shapes two_spheres(double gap) {
   return {sphere(-1.0 - 0.5 * gap), sphere(1.0 + 0.5 * gap)};
 }
 
-/// ∫ over the membrane of one vesicle.
+/// Integral over the membrane of one vesicle.
 Vector3 integral(const SurfacePoints& points, const Vectors& field, int vesicle) {
   Vector3 result = Vector3::Zero();
   for (const Eigen::Index i : points.of_vesicle(vesicle)) result += points.weight[i] * field.col(i);
   return result;
 }
 
-/// Difference on the membrane of one vesicle.
+/// Error on the membrane of one vesicle.
 double error_on(const SurfacePoints& points, const Eigen::MatrixXd& found, const Eigen::MatrixXd& exact, int vesicle) {
   const std::vector<Eigen::Index> own = points.of_vesicle(vesicle);
   return relative_l2(points.picked(own), found(Eigen::all, own), exact(Eigen::all, own));
 }
 
-/// Inside either vesicle the potential of a source elsewhere, outside those of sources in both.
+/// Inside either vesicle, the potential of a source elsewhere; outside, that of sources in both.
 struct SourcesOfTwo {
   std::array<PointSource, 2> inner_field;  ///< one for each inside
   std::array<PointSource, 2> outer_field;  ///< one in each
@@ -58,7 +58,7 @@ struct SourcesOfTwo {
   [[nodiscard]] Vector3 gradient_outside(const Vector3& x) const {
     return outer_field[0].gradient(x) + outer_field[1].gradient(x);
   }
-  /// Row vectors of [1 x points].
+  /// Values as row vectors [1 x points].
   template <typename OfPoint>
   [[nodiscard]] static Eigen::MatrixXd at(const SurfacePoints& points, const OfPoint& of_point) {
     Eigen::MatrixXd result(of_point(Vector3(Vector3::UnitX()), Vector3(Vector3::UnitX()), 0).size(), points.size());
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(sources_in_both_vesicles_are_found_with_materials_of_their_
   }
 }
 
-// Forces over ε a² E² of the field on two spheres at the gap a/2: linear systems of their multipoles.
+// Forces over ε a² E² of the field on two spheres at the gap a/2, from linear systems of their multipoles.
 BOOST_AUTO_TEST_CASE(spheres_in_a_field_attract_and_repel_as_their_multipoles_do) {
   const Discretisation space = discretise(two_spheres(0.5), {});
   const SurfacePoints points = space.quadrature_points(8);
@@ -202,8 +202,8 @@ BOOST_AUTO_TEST_CASE(spheres_in_a_field_attract_and_repel_as_their_multipoles_do
   }
 }
 
-// At equal viscosities flows of forces on either sphere add up: that of an even force is a Stokeslet with a source
-// doublet, that of a torque a rotlet.
+// At equal viscosities the flows of forces on both spheres add up: a uniform force causes a Stokeslet with a source
+// doublet, a torque a rotlet.
 BOOST_AUTO_TEST_CASE(flows_of_forces_and_torques_on_two_spheres_add_up) {
   const Shapes shapes = two_spheres(0.5);
   const Discretisation space = discretise(shapes, {.degree = 4});
@@ -264,7 +264,7 @@ BOOST_AUTO_TEST_CASE(stiff_spheres_move_together_and_apart_as_rigid_ones) {
   }
 }
 
-// v = A x solves Stokes' equations in fluids of any viscosity, with the force that their stresses leave.
+// v = A x solves the Stokes equations in fluids of any viscosity if the membrane force balances the jump of stress.
 BOOST_AUTO_TEST_CASE(linear_flow_passes_through_vesicles_of_other_viscosities) {
   const Shapes shapes = shapes::two_shapes(0.2);
   const Discretisation space = discretise(shapes, {.degree = 3});

@@ -5,8 +5,8 @@
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
 
-/// Units do not matter: the same problem in other units of length, potential, conductivity, viscosity and force has the
-/// same solution in these units, up to what the linear solver leaves.
+/// The same problem in other units of length, potential, conductivity, viscosity and force has the same solution in
+/// these units, up to the error of the linear solver.
 BOOST_AUTO_TEST_SUITE(units)
 
 namespace {
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(potential_is_the_same_in_all_units) {
                                      << ", conductivity " << units.conductivity) {
         BOOST_TEST(relative_max(other[i].transmembrane_potential, one[i].transmembrane_potential) < kSame);
         BOOST_TEST(relative_max(other[i].force, one[i].force) < kSame);
-        // Without conductance there is no flux, and nothing to compare with.
+        // Without conductance the flux vanishes, so there is no reference value.
         if (i < 2) BOOST_TEST(relative_max(other[i].charge, one[i].charge) < kSame);
       }
     }

@@ -14,7 +14,7 @@ namespace {
 using meshes::Wall;
 constexpr double pi = std::numbers::pi;
 
-/// Turned any way.
+/// Arbitrary wall normal.
 const Vector3 kNormal = Vector3(1.0, -2.0, 0.5).normalized();
 
 struct WallMesh {
@@ -30,7 +30,7 @@ Discretisation discretise(const meshes::FrozenShape& shape, const Wall& wall, co
   return {std::make_shared<meshes::BoxMesh>(meshes::make_mesh_beside_wall(shape, wall, options)), level.degree};
 }
 
-/// Beside a shape, at this gap.
+/// Wall at this gap from a shape.
 Wall wall_at(const meshes::FrozenShape& shape, double gap) {
   double lowest = std::numeric_limits<double>::max();
   shapes::for_each_sphere_point(
@@ -38,14 +38,14 @@ Wall wall_at(const meshes::FrozenShape& shape, double gap) {
   return {(lowest - gap) * kNormal, kNormal};
 }
 
-/// Beside the unit sphere about the origin.
+/// Wall at this gap from the unit sphere about the origin.
 Wall wall_below_sphere(double gap) { return {-(1.0 + gap) * kNormal, kNormal}; }
 
 Vector3 image_of(const Vector3& x, const Wall& wall) { return x - 2.0 * wall.normal.dot(x - wall.point) * wall.normal; }
 
 Vector3 integral(const SurfacePoints& points, const Vectors& field) { return field * points.weight; }
 
-/// Inside the potential of a source outside; outside that of a source in the vesicle and of its image.
+/// Inside, the potential of a source outside; outside, that of a source in the vesicle and of its image.
 struct SourceBesideWall {
   PointSource inner_field;
   std::array<PointSource, 2> outer_field;
@@ -73,7 +73,7 @@ struct SourceBesideWall {
   }
 };
 
-/// 8πμ times the velocity of a point force f at y above a wall without slip, by its image (Blake 1971).
+/// 8πμ times the velocity of a point force f at y above a no-slip wall, by its image (Blake 1971).
 Vector3 blake(const Vector3& x, const Vector3& y, const Vector3& f, const Wall& wall) {
   const Vector3& n = wall.normal;
   const double h = n.dot(y - wall.point), z = n.dot(x - wall.point), f_n = n.dot(f);
@@ -115,8 +115,8 @@ BOOST_AUTO_TEST_CASE(sources_and_their_images_are_found_with_the_order_of_the_el
   }
 }
 
-// Forces over ε a² E² of the field on two spheres at the gap a/2: linear systems of their multipoles. Half of the gap
-// is that to the wall.
+// Forces over ε a² E² of the field on two spheres at the gap a/2, from linear systems of their multipoles. The gap to
+// the wall is half of that.
 BOOST_AUTO_TEST_CASE(sphere_beside_a_wall_feels_the_force_of_its_mirror_image) {
   const Wall wall = wall_below_sphere(0.25);
   const Discretisation space = discretise(unit_sphere(), wall, {.degree = 5});
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(sphere_beside_a_wall_feels_the_force_of_its_mirror_image) {
   }
 }
 
-// Between fluids of one viscosity forces on γ have the flow of point forces and their images.
+// With equal viscosities, forces on γ cause the flow of point forces and their images.
 BOOST_AUTO_TEST_CASE(flow_of_forces_is_that_of_point_forces_with_their_images) {
   const meshes::FrozenShape shape = shapes::asymmetric();
   const Wall wall = wall_at(shape, 0.3);
@@ -192,8 +192,8 @@ BOOST_AUTO_TEST_CASE(flow_of_forces_is_that_of_point_forces_with_their_images) {
   }
 }
 
-// Brenner 1961: forces over 6πμaU towards a wall without slip; Stimson and Jeffery's spheres towards one another are
-// that towards a stress-free wall.
+// Brenner 1961: forces over 6πμaU towards a no-slip wall. Stimson and Jeffery's value for spheres approaching each
+// other applies to a stress-free wall.
 BOOST_AUTO_TEST_CASE(stiff_spheres_move_towards_a_wall_as_rigid_ones) {
   struct Case {
     WallFlow wall;
@@ -220,12 +220,12 @@ BOOST_AUTO_TEST_CASE(stiff_spheres_move_towards_a_wall_as_rigid_ones) {
   }
 }
 
-// A drop more fluid than what is around it, beside a stress-free wall and beside its mirror image.
+// A drop less viscous than the surrounding fluid, beside a stress-free wall and beside its mirror image.
 BOOST_AUTO_TEST_CASE(drop_beside_a_stress_free_wall_moves_like_one_of_two) {
   const meshes::FrozenShape shape = shapes::asymmetric();
   const Wall wall = wall_at(shape, 0.3);
   const Matrix3 mirror = Matrix3::Identity() - 2.0 * kNormal * kNormal.transpose();
-  // Turned round as well, so that its normal points outwards.
+  // The parametrisation is reversed as well, so that the normal points outwards.
   const meshes::FrozenShape image(shapes::project(
       16, [&](const Vector3& r) { return image_of(shape.position(Vector3(r.x(), r.y(), -r.z())), wall); }));
   const auto force = [](const Vector3& x) { return Vector3(0.5 * x.z() + 0.2, x.x() * x.y(), -0.3); };

@@ -7,7 +7,7 @@
 #include "bie/support/thread_count.hpp"
 #include "tests/fit/fit_folder.hpp"
 
-// How often intervals hold the truth, in 100 repetitions with other noise.
+// How often intervals contain the true value, in 100 repetitions with different noise.
 BOOST_AUTO_TEST_SUITE(fit_coverage, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
 namespace {
@@ -16,7 +16,7 @@ using vehd::Index;
 using vehd::Matrix;
 using vehd::Vector;
 
-/// What runs predict over two keys, between runs at n x n points: polynomials through Chebyshev's nodes. So 100 fits
+/// Predictions of runs over two keys, interpolated by polynomials between runs at n x n Chebyshev nodes. So 100 fits
 /// cost the runs of two.
 class Interpolated {
  public:
@@ -46,7 +46,7 @@ class Interpolated {
  private:
   static constexpr Index n = 5;
   static double node(Index i) { return std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / n); }
-  /// Of Lagrange.
+  /// Lagrange weights of the nodes at x.
   static Vector weights(double x) {
     Vector weights = Vector::Ones(n);
     for (Index i = 0; i < n; ++i) {
@@ -59,7 +59,7 @@ class Interpolated {
   std::vector<Vector> values_;
 };
 
-/// An experiment, two keys, and data of the scene's own values.
+/// An experiment with two keys, and data computed with the scene's own values.
 struct Design : vehd::testing::FitFolder {
   vehd::ThreadCount one{1};
 
@@ -78,7 +78,7 @@ struct Design : vehd::testing::FitFolder {
     vehd::LeastSquares problem = vehd::least_squares_of(fit);
     const Interpolated model(fit, runs, problem);
     const Vector p{{fit.keys[0].coordinate_of(truth[0]), fit.keys[1].coordinate_of(truth[1])}};
-    // The runs of the fit and polynomials are much nearer to exact values than data are.
+    // The errors of the runs and of the interpolation are much smaller than the noise of the data.
     BOOST_TEST((model(p) - exact).cwiseQuotient(problem.deviations).norm() < 0.5);
     problem.model = [&](const std::vector<Vector>& points) {
       std::vector<vehd::Prediction> predictions;
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(charging_in_a_pulse_for_capacitance_and_conductance) {
                             Vector{{0.6, 8.0}});
 }
 
-// Weak fields, whose stress bending resists: shapes by the end of a run over frequency.
+// Weak fields, whose stress is balanced by bending: shapes at the end of a run over frequency.
 BOOST_AUTO_TEST_CASE(shapes_over_frequency_for_bending_and_capacitance) {
   const std::string scene =
       "[shape]\nkind = \"radial\"\nmodes = [{n = 2, m = 0, a = 0.1}, {n = 4, m = 0, a = 0.2}]\n"

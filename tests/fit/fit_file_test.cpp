@@ -25,7 +25,7 @@ struct Folder {
   [[nodiscard]] vehd::FitFile fit(const std::string& text = experiment + free_keys) const {
     return vehd::parse_fit(text, "fit.toml", directory / "");
   }
-  /// What is said of a fit that is refused, with the folder left out.
+  /// Message with which a fit is refused, without the folder.
   [[nodiscard]] std::string refusal(const std::string& text = experiment + free_keys) const {
     try {
       static_cast<void>(fit(text));
@@ -52,11 +52,11 @@ BOOST_AUTO_TEST_CASE(data_are_read_in_their_units) {
   BOOST_TEST(read.data[0].value == 21.5e-6, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(read.data[0].deviation == 1e-7, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(read.runs.size() == 1u);
-  // A tenth of the deviation in the largest extent.
+  // A tenth of the deviation, relative to the largest extent.
   BOOST_TEST(read.tolerance == 0.1 * 1e-7 / 21.5e-6, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(fit.keys.front().is_logarithmic);
   BOOST_TEST(fit.keys.front().setting_of(2e-19) == "membrane.bending_modulus=\"2e-19 J\"");
-  // The scene's 0.1 of length³ viscosity/time is far above the interval: its middle.
+  // The scene's 0.1 of length³ viscosity/time is far above the interval, so the fit starts at its middle.
   BOOST_TEST(fit.keys.front().start == 1e-19, boost::test_tools::tolerance(1e-12));
 }
 

@@ -25,7 +25,7 @@ struct ChargingSphere {
     const double leak = pair() / radius + conductance;
     return 1.5 * field * radius * pair() / radius / leak * (1.0 - std::exp(-time * leak / capacitance));
   }
-  /// Potential and conductivities in SI units, all that the closed form needs.
+  /// Scene in SI units with the potential and the conductivities, which are all that the closed form needs.
   [[nodiscard]] static std::string scene() {
     return "[units]\nlength = \"10 um\"\ntime = \"1 ms\"\npotential = \"1 V\"\n"
            "[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1]\n"
@@ -41,7 +41,7 @@ struct ChargingSphere {
 struct FitFolder {
   TemporaryDirectory directory;
 
-  /// Data against time with noise of this deviation; both in units of the header.
+  /// Writes data against time with noise of this deviation; both in units of the header.
   void write_data(const std::string& name, const std::string& header, const std::vector<double>& abscissae,
                   const std::function<double(double)>& exact, double deviation, std::uint64_t seed) const {
     NormalNumbers normal(seed);

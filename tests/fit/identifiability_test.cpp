@@ -6,7 +6,7 @@
 #include "bie/support/thread_count.hpp"
 #include "tests/fit/fit_folder.hpp"
 
-// Designs of which it is known what they cannot tell apart.
+// Designs whose undetermined combinations of keys are known.
 BOOST_AUTO_TEST_SUITE(identifiability, *boost::unit_test::label("slow"))
 
 namespace {
@@ -31,14 +31,14 @@ struct Design : vehd::testing::FitFolder {
   }
 };
 
-/// The combination goes along this direction, and nothing in it has an interval.
+/// Requires that one combination, along this direction, is undetermined and that no key in it has an interval.
 void require_undetermined(const vehd::FitResult& result, const vehd::Vector& direction) {
   BOOST_TEST_REQUIRE(result.statistics.undetermined.size() == 1u);
   BOOST_TEST(std::abs(result.statistics.undetermined.front().direction.dot(direction.normalized())) > 0.99);
   for (const double error : result.statistics.errors) BOOST_TEST(!std::isfinite(error));
 }
 
-/// Its area goes from the fourth mode to the second.
+/// A shape whose excess area goes from the fourth mode to the second.
 const std::string relaxing =
     "[shape]\nkind = \"radial\"\nmodes = [{n = 2, m = 0, a = 0.1}, {n = 4, m = 0, a = 0.2}]\n"
     "[membrane]\nbending_modulus = 1.0\n"

@@ -15,7 +15,7 @@ using vehd::Index;
 using vehd::Vector;
 using vehd::testing::problem_of;
 
-/// Amplitude, rate and what it goes to, all as logarithms.
+/// Decay with amplitude, rate and limit, given by their logarithms.
 Vector relaxation(const Vector& p) {
   Vector values(30);
   for (Index i = 0; i < 30; ++i) {
@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(three_parameters_need_at_most_sixty_evaluations) {
     BOOST_TEST(minimum.n_evaluations <= 60);
     BOOST_TEST(minimum.n_evaluations == n_told);
     const vehd::Vector miss = minimum.jacobian * (minimum.point - truth);
-    // χ² of three parameters: above 16.3 once in a thousand.
+    // χ² of three parameters exceeds 16.3 once in a thousand cases.
     BOOST_TEST(miss.squaredNorm() < 16.3);
   }
 }

@@ -18,7 +18,7 @@ BOOST_AUTO_TEST_CASE(numbers_are_normal_and_independent) {
     next += number * before / n;
     before = number;
   }
-  // Four standard errors of each.
+  // Four standard errors of each average.
   const double error = 4.0 / std::sqrt(n);
   BOOST_TEST(std::abs(mean) < error);
   BOOST_TEST(std::abs(variance - 1.0) < std::sqrt(2.0) * error);

@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(charging_of_a_sphere_gives_capacitance_and_conductance) {
   const auto& errors = result.statistics.errors;
   BOOST_TEST(std::abs(std::log(result.values[0] / 1.0)) < 3.5 * errors[0]);
   BOOST_TEST(std::abs(std::log(result.values[1] / 20.0)) < 3.5 * errors[1]);
-  // Of 26 values of 250 mV with 5 mV each.
+  // From 26 values of 250 mV with 5 mV each.
   BOOST_TEST(errors[0] < 0.03);
   BOOST_TEST(errors[1] < 0.03);
   // χ² with 24 degrees of freedom: between these in all but one case of a thousand.
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(any_number_of_workers_finds_the_same_and_a_second_call_what
   const auto times = times_of_results(runs);
   BOOST_TEST(vehd::json_of(fit, charging.result(fit)).dump() == first);
   BOOST_TEST((times_of_results(runs) == times));
-  // As a kill leaves it: a run without a result, another one with nothing at all.
+  // As after a kill: a run without a result, and another one without any file.
   std::vector<fs::path> folders;
   for (const auto& entry : fs::directory_iterator(runs)) folders.push_back(entry.path());
   fs::remove(folders.at(0) / "result.json");
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(two_fits_do_not_work_in_one_directory) {
 }
 
 BOOST_AUTO_TEST_CASE(what_charging_does_not_tell_apart_is_reported) {
-  // A time and an amplitude for three keys.
+  // The data determine a time and an amplitude, but the fit has three keys.
   const ChargingFit charging;
   const vehd::FitFile fit = charging.fit(
       "\"membrane.capacitance\" = {from = \"0.2 uF/cm^2\", to = \"5 uF/cm^2\"}\n"

@@ -26,14 +26,14 @@ Vector straight_line(const Vector& p) {
   return values;
 }
 
-/// A decay whose rate is exp(p0 − p1): all that bending relaxation says of κ_B and μ.
+/// A decay with the rate exp(p0 − p1): bending relaxation depends on κ_B and μ only through this ratio.
 Vector decay_by_ratio(const Vector& p) {
   Vector values(n_data);
   for (Index i = 0; i < n_data; ++i) values[i] = std::exp(-std::exp(p[0] - p[1]) * abscissa(i));
   return values;
 }
 
-/// The run's error, up to a tenth of a deviation, on top of a model: another one at every point.
+/// A model plus the run's error, up to a tenth of a deviation and different at every point.
 template <typename Model>
 auto with_run_error(const Model& model, double error) {
   return [model, error](const Vector& p) {
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(what_is_determined_beside_an_undetermined_pair_keeps_its_in
 }
 
 BOOST_AUTO_TEST_CASE(strong_correlation_is_not_taken_for_an_undetermined_combination) {
-  // Rate and amplitude of a decay of which the beginning is seen alone.
+  // Rate and amplitude of a decay of which only the beginning is observed.
   const auto model = [](const Vector& p) {
     Vector values(n_data);
     for (Index i = 0; i < n_data; ++i) {

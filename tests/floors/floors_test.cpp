@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A module includes and links modules of lower floors alone: those of one floor do not know each other.
+/// A module includes and links only modules of lower floors; modules of one floor are independent of each other.
 const std::map<std::string, int> floors = {{"support", 0},    {"mpi", 1},      {"sphere", 1},     {"kernels", 1},
                                            {"linear", 1},     {"geometry", 2}, {"potentials", 3}, {"physics", 4},
                                            {"stepping", 5},   {"files", 6},    {"scene", 7},      {"runs", 8},
@@ -27,7 +27,7 @@ std::vector<std::string> lines_of(const fs::path& path) {
   return lines;
 }
 
-/// Files of the program, or of its tests as well.
+/// Source files below the given folders.
 std::vector<fs::path> code_below(const std::vector<std::string>& folders) {
   std::vector<fs::path> files;
   for (const std::string& folder : folders) {
@@ -41,7 +41,7 @@ std::vector<fs::path> code_below(const std::vector<std::string>& folders) {
 
 std::string module_of(const fs::path& file) { return (++file.begin())->string(); }
 
-/// What a line of a file of the module includes against the floors; empty if nothing.
+/// The path in an #include of the module that violates the floors; empty if there is none.
 std::string wrong_include(const std::string& module, const std::string& line) {
   static const std::regex include("\\s*#\\s*include\\s*[\"<]([^\">]+)[\">].*");
   std::smatch match;
@@ -49,13 +49,13 @@ std::string wrong_include(const std::string& module, const std::string& line) {
   const std::string path = match[1];
   static const std::regex room("bie/([a-z_]+)/.*");
   if (std::regex_match(path, match, room)) return may_use(module, match[1]) ? "" : path;
-  // A relative path would go round the floors; the finite elements are no part of the solver.
+  // A relative path would bypass the floors; the finite elements are no part of the solver.
   const bool wrong = path.find("..") != std::string::npos || path.starts_with("bie/") ||
                      path.starts_with("fem_check/") || path.starts_with("meshes/") || path.starts_with("tests/");
   return wrong ? path : "";
 }
 
-/// The libraries that a line of bie/CMakeLists.txt gives to a module against the floors.
+/// Libraries that a line of bie/CMakeLists.txt links to a module in violation of the floors.
 std::vector<std::string> wrong_links(const std::string& line) {
   static const std::regex module("\\s*(vehd_module\\(|target_link_libraries\\(vehd_)([a-z_]+)(.*)");
   static const std::regex library("vehd_([a-z_]+)");
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(wrong_includes_and_links_are_seen) {
 BOOST_AUTO_TEST_CASE(commands_print_and_nothing_else_does) {
   int n_printing = 0;
   for (const fs::path& file : code_below({"bie"})) {
-    // The line of progress is drawn on its own floor; the check of the processor runs before all else.
+    // The progress line is drawn on its own floor; the check of the processor runs before everything else.
     const bool may_print = module_of(file) == "app" || file == "bie/support/progress.cpp" ||
                            file.string().starts_with("bie/support/processor/");
     for (const std::string& line : lines_of(source / file)) {

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A page without its blocks of code and without code in a line, where brackets are no links.
+/// A page without blocks of code and without inline code, in which brackets are no links.
 std::string prose_of(const std::string& page) {
   std::istringstream lines(page);
   std::string prose;
@@ -27,7 +27,7 @@ std::string prose_of(const std::string& page) {
   return std::regex_replace(prose, std::regex("`[^`]*`"), "");
 }
 
-/// Targets of the links and pictures of a page, those of the net left out.
+/// Targets of the links and pictures of a page, without web addresses.
 std::vector<std::string> links_in(const std::string& page) {
   const std::string prose = prose_of(page);
   std::vector<std::string> targets = found(prose, R"(\]\(([^)\s]+)[^)]*\))");
@@ -39,13 +39,13 @@ std::vector<std::string> links_in(const std::string& page) {
   return targets;
 }
 
-/// Files and folders of the project that a page names as code, from the top folder on.
+/// Files and folders of the project that a page names as code, with their paths from the top folder.
 std::vector<std::string> paths_named_in(const std::string& page) {
   return found(page, R"(`((?:bie|docs|fem_check|meshes|tests)/[\w/.-]*(?:\.[a-z]+|/))`)");
 }
 
-/// What GitHub and Sphinx make of the text of a heading: lower case, spaces as hyphens, no punctuation. Of letters
-/// beyond ASCII those of two bytes stay (é, κ); longer ones are signs in these pages.
+/// Anchor that GitHub and Sphinx make from a heading: lower case, spaces as hyphens, no punctuation. Non-ASCII
+/// characters of two bytes are letters and stay (é, κ); longer ones are symbols in these pages.
 std::string anchor_of(const std::string& heading) {
   std::string anchor;
   for (std::size_t i = 0; i < heading.size();) {
@@ -78,7 +78,7 @@ std::set<std::string> anchors_in(const std::string& page) {
   return anchors;
 }
 
-/// Why a link of a page leads nowhere; empty if it leads somewhere.
+/// Why a link of a page is broken; empty if it is not.
 std::string trouble_with(const std::string& link, const fs::path& page) {
   const std::size_t sharp = link.find('#');
   const std::string path = link.substr(0, sharp);
@@ -95,7 +95,7 @@ std::vector<std::string> reference_keys() {
   return found(text_of(source / "docs/references.md"), R"(\n### ([^\n]* (?:19|20)\d\d)\n)");
 }
 
-/// Every "Somebody 1234" that a docstring names after "Source:", with all that stands before it.
+/// Every "Somebody 1234" that a docstring names after "Source:", with all the text before it.
 std::vector<std::string> sources_named_in(const std::string& code) {
   std::vector<std::string> named;
   for (std::string text : found(code, R"(/// Source: ([^\n]*(?:\n *///  *(?!@|Accuracy:)[^\n]*)*))")) {

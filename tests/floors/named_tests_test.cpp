@@ -42,7 +42,7 @@ bool exists(const std::map<std::string, std::set<std::string>>& suites, const st
   return next != suite->second.end() && next->starts_with(wanted);
 }
 
-/// What a text names, `SUITE/CASE` in words or with `--run_test=`. Names of cases are sentences: three words or more.
+/// Tests that a text names, as `SUITE/CASE` or with `--run_test=`. Names of cases are sentences: three words or more.
 std::vector<std::string> tests_named_in(const std::string& text) {
   std::vector<std::string> names = found(text, R"(`([a-z0-9_]+/[a-z0-9]+(?:_[a-z0-9]+){2,})`)");
   const std::vector<std::string> whole = found(text, R"(`([a-z0-9_]+)/…`)");

@@ -33,7 +33,7 @@ inline std::vector<std::filesystem::path> files_below(const std::string& folder,
   return files;
 }
 
-/// What readers read: the pages of docs/ and of the top folder.
+/// Pages of docs/ and of the top folder.
 inline std::vector<std::filesystem::path> pages() {
   std::vector<std::filesystem::path> files = files_below("docs", {".md"});
   for (const auto& entry : std::filesystem::directory_iterator(source)) {

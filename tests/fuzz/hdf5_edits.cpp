@@ -63,7 +63,7 @@ constexpr std::array<double, 8> written_values = {0.0,    1.0,
 constexpr std::array<hsize_t, 16> extents = {
     0, 1, 2, 3, 4, 5, 10, 16, 25, 36, 4225, 4356, 0xffffffff, hsize_t{1} << 40, hsize_t{1} << 62, 7};
 
-/// Numbers from bytes; zeros after the end.
+/// Numbers taken from bytes; zeros after the end.
 class Bytes {
  public:
   explicit Bytes(std::string_view bytes) : bytes_(bytes) {}
@@ -147,7 +147,7 @@ hid_t type_of(unsigned choice) {
   return types[choice % types.size()];
 }
 
-/// A dataset in place of whatever has its name. Only small ones get values; the others claim a size that is not there.
+/// Puts a dataset in place of any object of its name. Only small ones get values; others claim a size without data.
 void put_dataset(hid_t file, Bytes& bytes) {
   const char* path = bytes.pick(paths);
   const hid_t type = type_of(bytes.next());
@@ -197,7 +197,7 @@ void put_attribute(hid_t file, Bytes& bytes) {
   H5Awrite(attribute.id(), H5T_NATIVE_DOUBLE, values.data());
 }
 
-/// So that what lies behind the seals is reached.
+/// Renews the seals, so that the code behind their check is reached.
 void correct_seals(const std::string& image, hid_t file) {
   for (const char* group : {"/", "/snapshots/000000", "/snapshots/000001"}) {
     try {

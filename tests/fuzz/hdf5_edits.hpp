@@ -10,7 +10,7 @@ struct EditedFile {
   std::string image;
 };
 
-/// A small good run.h5 or checkpoint after the edits that the bytes stand for.
+/// A small valid run.h5 or checkpoint after the edits that the bytes encode.
 EditedFile edited_file(std::string_view bytes);
 
 }  // namespace fuzz

@@ -25,7 +25,7 @@ std::vector<std::filesystem::path> seeds_of(std::string_view target) {
 
 BOOST_AUTO_TEST_SUITE(seeds)
 
-// Whatever a fuzzer found interesting or once broke a reader. That each ends soon is up to the time limit of CTest.
+// Inputs that a fuzzer found interesting or that once broke a reader. CTest's time limit requires that each ends soon.
 BOOST_AUTO_TEST_CASE(every_seed_is_read_or_refused_in_order) {
   for (const fuzz::Target& target : fuzz::targets) {
     const auto files = seeds_of(target.name);
@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(every_seed_is_read_or_refused_in_order) {
   }
 }
 
-// A comparison that would accept anything finds nothing.
+// A comparison that accepts everything would find nothing.
 BOOST_AUTO_TEST_CASE(numbers_that_were_read_wrongly_are_noticed) {
   int compared = 0;
   for (const std::filesystem::path& file : seeds_of("scene")) {

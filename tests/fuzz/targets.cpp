@@ -20,7 +20,7 @@
 namespace fuzz {
 namespace {
 
-/// Runs one reader; only the program's own refusal is in order, and it is one line.
+/// Runs one reader; the only exception allowed is InputError, with a message of one line.
 template <typename Reader>
 void refuse_or_read(Reader reader) {
   try {
@@ -56,7 +56,7 @@ void read_run(vehd::Hdf5Reader file) {
   }
 }
 
-/// What `vehd plan` does, in a tenth of its time.
+/// Plans as `vehd plan` does, in a tenth of its time.
 void plan(const vehd::Scene& scene) {
   vehd::RunPlan plan = vehd::plan_of(scene);
   vehd::predict_cost(scene, plan, {.seconds = 0.9});

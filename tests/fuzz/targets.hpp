@@ -4,12 +4,12 @@
 #include <string>
 #include <string_view>
 
-/// What the fuzzers feed with bytes. Each returns after accepting or refusing them; anything but the program's own
-/// InputError, and every result that contradicts itself, leaves as another exception.
+/// Functions that the fuzzers feed with bytes. Each returns after accepting or refusing them with the program's own
+/// InputError; any other error, and every result that contradicts itself, leaves as another exception.
 namespace fuzz {
 
-/// A scene file. One that is accepted must hold the numbers that are written in it, and come back unchanged from the
-/// effective scene written of it, which must hold the same numbers; and `vehd plan` must come to an end.
+/// A scene file. If it is accepted, it must hold the numbers that are written in it; the effective scene written from
+/// it must be read back unchanged, with the same numbers; and `vehd plan` must come to an end.
 void scene(std::string_view bytes);
 
 /// The text files beside a scene: the table of a waveform, and a history.csv.

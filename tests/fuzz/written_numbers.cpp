@@ -30,7 +30,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
 }
 
-/// A whole number of TOML in any notation; nullopt for what is none and for nan and inf, which no scene holds.
+/// A text that is a TOML number in any notation; nullopt for other texts and for nan and inf, which no scene holds.
 std::optional<double> number_in(std::string text) {
   std::erase(text, '_');
   if (text.size() > 2 && text[0] == '0' && std::isalpha(static_cast<unsigned char>(text[1])) != 0 && text[1] != 'e' &&
@@ -149,7 +149,7 @@ void compare(const vehd::KeyDescription& key, const std::vector<WrittenNumber>& 
 }  // namespace
 
 void require_written_numbers(const std::string& text, const vehd::Scene& scene) {
-  // Lines inside of long texts only look like keys.
+  // Lines inside long texts only look like keys.
   if (text.find("\"\"\"") != std::string::npos || text.find("'''") != std::string::npos) return;
   std::istringstream lines(text);
   std::string table;

@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(gauss_curvature_integrates_to_four_pi) {
 }
 
 BOOST_AUTO_TEST_CASE(curvature_of_a_point_does_not_depend_on_the_poles) {
-  // The same surface twice; its invariants agree where integrals see every point.
+  // Two parametrisations of the same surface; invariants are compared by integrals, which use every point.
   const SphereTransform transform = fine_transform(24);
   const Surface s = make_surface(transform, asymmetric_shape(24));
   const Surface moved = make_surface(transform, move_poles(asymmetric_shape(24), general_rotation()));

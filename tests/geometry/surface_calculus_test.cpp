@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kOrder = 24;
 
-/// The asymmetric shape with the coefficients that made it.
+/// The asymmetric shape with its coefficients.
 struct TestSurface {
   SphereTransform transform{kOrder, make_grid(2 * kOrder)};
   Matrix position = asymmetric_shape(kOrder);
@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(laplacian_of_position_is_twice_mean_curvature_normal) {
 }
 
 BOOST_AUTO_TEST_CASE(gradient_of_an_ambient_function_is_its_tangential_part) {
-  // f = a·x + (b·x)² has the gradient a + 2 (b·x) b in space.
+  // f = a·x + (b·x)² has the spatial gradient a + 2 (b·x) b.
   const Vector3 a(0.3, -1.0, 0.4);
   const Vector3 b(0.8, 0.1, -0.5);
   const Vector along_b = surface.position * b;

@@ -1,10 +1,10 @@
-# Unpacks archives of vehd (bie/cmake/archive.cmake) in a root that has nothing but the C library, and in a bare Debian 13,
-# runs there what docs/archive.md says, and tells how long the first picture takes:
+# Unpacks archives of vehd (bie/cmake/archive.cmake) in a root that has only the C library, and in a bare Debian 13,
+# runs there the commands of docs/archive.md, and prints the time until the first picture:
 #   cmake -DBUILD=build-archive -DSOURCE=source -DFOLDER=work -P archive.cmake
-# Before -P: -DMAKE=ON makes the archives first, compressed less than those that are handed on; -DPYTHON=python3 imports the
-# module with the Python of this system as well.
-# It needs root and unshare, and for Debian 13 mmdebstrap, and the network once: what is missing is said and left out. The
-# Containerfile is built where buildah is there.
+# Before -P: -DMAKE=ON makes the archives first, compressed less than released ones; -DPYTHON=python3 imports the module
+# with the Python of this system as well.
+# It needs root and unshare, for Debian 13 also mmdebstrap and, once, the network: parts for which something is missing
+# are reported and skipped. The Containerfile is built if buildah is installed.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/bare_debian.cmake")
@@ -34,14 +34,14 @@ endif()
 file(REMOVE_RECURSE "${FOLDER}")
 file(MAKE_DIRECTORY "${FOLDER}")
 
-# The commands of the page that start something of an archive.
+# The commands of the page that start a program of an archive.
 file(STRINGS "${SOURCE}/docs/archive.md" commands REGEX "^vehd-[0-9.]+-x86_64-linux/bin/")
 list(LENGTH commands n_commands)
 if(n_commands LESS 3)
   message(FATAL_ERROR "docs/archive.md has ${n_commands} commands to try")
 endif()
 
-# A root with the files of the C library and none else.
+# A root with only the files of the C library.
 function(make_libc_root root)
   file(MAKE_DIRECTORY "${root}/usr/lib/x86_64-linux-gnu" "${root}/usr/lib64")
   expect("" "${CMAKE_COMMAND}" -E create_symlink usr/lib "${root}/lib")
@@ -57,7 +57,7 @@ function(make_libc_root root)
   file(COPY_FILE "${loader}" "${root}/usr/lib64/ld-linux-x86-64.so.2")
 endfunction()
 
-# Runs a program within a root, in its folder /work, without a shell. /proc, /dev and /sys end with it.
+# Runs a program within a root, in its folder /work, without a shell. /proc, /dev and /sys are unmounted at its end.
 function(within root pattern)
   expect("${pattern}" "${unshare}" --mount --pid --fork sh -c
          "mount -t proc proc \"$0/proc\" && mount --rbind /dev \"$0/dev\" && mount --rbind /sys \"$0/sys\" && \
@@ -75,7 +75,7 @@ function(try_in root name archive)
   file(MAKE_DIRECTORY "${root}/work")
   expect("" tar -C "${root}/work" -xf "${archive}")
   foreach(command IN LISTS commands)
-    # The page has the archive with finite elements.
+    # The page uses the archive with finite elements.
     string(REGEX REPLACE "vehd-[0-9.]+-x86_64-linux" "${folder}" command "${command}")
     separate_arguments(words UNIX_COMMAND "/work/${command}")
     string(TIMESTAMP start "%s%f")
@@ -131,7 +131,7 @@ if(PYTHON AND EXISTS "${FOLDER}/${folder}/bin/vehd-python")
          "PYTHONPATH=${FOLDER}/${folder}/lib/python3/dist-packages" "${PYTHON}" -m vehd --degree 6)
 endif()
 
-# The definitions of containers: one is built, on the bare Debian where there is one, the other has no builder in Debian.
+# The definitions of containers: one is built, on the bare Debian if there is one; for the other Debian has no builder.
 file(STRINGS "${SOURCE}/docs/containers/vehd.def" lines REGEX "^[^ #]")
 set(known Bootstrap:|From:|%files$|%environment$|%runscript$|%test$|%help$)
 foreach(line IN LISTS lines)

@@ -1,5 +1,5 @@
-# A Debian that has nothing beside apt and what is asked for, to try vehd in; where it can be made it is made once, and stays
-# for the next time.
+# A Debian with only apt and the requested packages, in which vehd is tested; it is made once, if it can be made, and
+# kept for the next time.
 
 # ${XDG_CACHE_HOME:-~/.cache}/vehd
 function(cache_folder result)
@@ -11,8 +11,8 @@ function(cache_folder result)
   set(${result} "${cache}/vehd" PARENT_SCOPE)
 endfunction()
 
-# Makes one of a release at a place that has none: in a folder, or in a file if the place ends with .tar. The options after
-# it are mmdebstrap's. PROBLEM is empty, or why there is none.
+# Makes a bare system of a release at a place that has none: in a folder, or in a file if the place ends with .tar. The
+# further options are passed to mmdebstrap. PROBLEM is empty, or the reason why there is none.
 function(make_bare_debian problem release place)
   set(${problem} "" PARENT_SCOPE)
   if(EXISTS "${place}")
@@ -27,7 +27,7 @@ function(make_bare_debian problem release place)
   if(place MATCHES "\\.tar$")
     set(format tar)
   endif()
-  # From where this system has its own packages.
+  # The mirror from which this system has its own packages.
   execute_process(COMMAND apt-get indextargets --format "$(REPO_URI)" "Component: main" "ShortDesc: Packages" "Origin: Debian"
                   OUTPUT_VARIABLE mirrors ERROR_QUIET)
   string(REGEX MATCH "^[^\n]*" mirror "${mirrors}")

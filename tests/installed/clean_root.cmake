@@ -1,7 +1,7 @@
-# Installs a package as an administrator would, into a Debian 12 that has nothing beside apt, and goes on to the first
-# picture, and to Example 1 from Python; tells how long both take:
+# Installs a package as an administrator would, into a Debian 12 with only apt, and continues to the first picture, and
+# to Example 1 from Python; prints how long both take:
 #   cmake -DPACKAGE=vehd.deb -DFOLDER=work -P clean_root.cmake
-# It needs root, mmdebstrap or debootstrap, and the network; where one of the first two is missing it says so and ends.
+# It needs root, mmdebstrap or debootstrap, and the network; without root or these programs it is skipped.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/bare_debian.cmake")
@@ -14,7 +14,7 @@ if(NOT user EQUAL 0 OR NOT (mmdebstrap OR debootstrap))
   return()
 endif()
 
-# A bare system, made once.
+# A bare system, made only once.
 set(root "${FOLDER}/root")
 if(NOT EXISTS "${FOLDER}/bare.tar")
   file(REMOVE_RECURSE "${FOLDER}")
@@ -35,7 +35,7 @@ expect("" tar -C "${root}" --exclude=./dev/* -xf "${FOLDER}/bare.tar")
 configure_file(/etc/resolv.conf "${root}/etc/resolv.conf" COPYONLY)
 configure_file("${PACKAGE}" "${root}/vehd.deb" COPYONLY)
 
-# Runs a line of shell within the system, whose /proc and /dev end with it.
+# Runs a line of shell within the system; its /proc and /dev are unmounted at the end of the line.
 function(within seconds line)
   string(TIMESTAMP start "%s")
   expect("${ARGN}" unshare --mount sh -c
@@ -52,7 +52,7 @@ within(ran "vehd examples figure2 && vehd run figure2.toml" "picture: out/figure
 if(NOT EXISTS "${root}/root/out/figure2/plots/shapes.png")
   message(FATAL_ERROR "no picture")
 endif()
-# The module is where there is one in the package, whose recommendations bring python3 and numpy.
+# The Python module is tested if the package has it; the recommended packages bring python3 and numpy.
 execute_process(COMMAND dpkg-deb --field "${PACKAGE}" Provides OUTPUT_VARIABLE provided COMMAND_ERROR_IS_FATAL ANY)
 if(provided MATCHES python3-vehd)
   within(imported "python3 -m vehd" "degree 16: error of q")

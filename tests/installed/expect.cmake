@@ -1,4 +1,4 @@
-# Runs a command, which has to succeed and to print what the pattern asks for.
+# Runs a command, which must succeed and print text that matches the pattern.
 function(expect pattern)
   execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE status)
   list(JOIN ARGN " " command)
@@ -10,7 +10,7 @@ function(expect pattern)
   endif()
 endfunction()
 
-# Manual pages, completion, scenes and pages of an installed vehd.
+# Checks manual pages, completion, scenes and pages of an installed vehd.
 function(look_at_texts prefix)
   file(GLOB manual "${prefix}/share/man/man1/vehd.1.gz")
   if(manual)

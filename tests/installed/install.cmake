@@ -1,10 +1,10 @@
-# Installs a build, looks at what is there and builds a program that uses it:
-# PYTHON runs the module of Python, where there is one:
+# Installs a build, checks the installed files and builds a program that uses it; PYTHON runs the Python module, if
+# there is one:
 #   cmake -DBUILD=build -DSOURCE=source -DFOLDER=work -DPYTHON=python3 -P install.cmake
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
 
-# Whoever runs the tests may have chosen libraries of the build.
+# The user may have set a path to libraries of the build.
 unset(ENV{LD_LIBRARY_PATH})
 set(prefix "${FOLDER}/prefix")
 file(REMOVE_RECURSE "${FOLDER}")
@@ -14,7 +14,7 @@ expect("^vehd [0-9]+\\.[0-9]+\\.[0-9]+\n" "${prefix}/bin/vehd" --version)
 look_at_texts("${prefix}")
 expect("stokes_single" "${prefix}/bin/vehd" plan "${prefix}/share/vehd/scenes/figure5_no_field.toml")
 
-# Not from the build: from where the installation has put it.
+# The module must be loaded from the place of installation, not from the build.
 file(GLOB module "${prefix}/lib/python3/dist-packages/vehd/_core*")
 if(PYTHON AND module)
   expect("Example 1[^\n]*\ndegree 6: error of q" "${CMAKE_COMMAND}" -E env

@@ -1,8 +1,8 @@
-# Builds and tries the last commit as a newcomer would, in a bare system of the other Debian release: 13, on a 13 itself
-# 12. The system and what is built in it stay in ${XDG_CACHE_HOME:-~/.cache}/vehd for the next time:
+# Builds and tests the last commit as a newcomer would, in a bare system of the other Debian release: 13, or 12 if this
+# is a 13. The system and the build in it stay in ${XDG_CACHE_HOME:-~/.cache}/vehd for the next time:
 #   cmake -P other_debian.cmake
 # Before -P: -DRELEASE=trixie for another release, -DTESTS=REGEX for other tests than those of Python and the notebooks,
-# "." for all. It needs root, mmdebstrap, git and the network; where the system cannot be made it says so and ends.
+# "." for all. It needs root, mmdebstrap, git and the network; if the system cannot be made it reports that and ends.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/bare_debian.cmake")
 
@@ -38,7 +38,7 @@ endif()
 run(git -C "${root}/root/vehd" fetch -q "${CMAKE_CURRENT_LIST_DIR}/../.." HEAD)
 run(git -C "${root}/root/vehd" checkout -q --force --detach FETCH_HEAD)
 
-# Runs a line of shell within the system, in the folder of the README; /proc, /dev and /sys end with it.
+# Runs a line of shell within the system, in the folder of the README; /proc, /dev and /sys are unmounted at its end.
 function(within line)
   string(TIMESTAMP start "%s")
   run(cp /etc/resolv.conf "${root}/etc/resolv.conf")

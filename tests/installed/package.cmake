@@ -1,11 +1,11 @@
-# Makes a Debian package of a build, in BUILD/package, lets lintian read it and runs what is in it from a folder of its own.
-# LEVELS is how many instruction sets its numerical libraries are for beside that of the rest; PYTHON runs the module of
-# Python, where there is one:
+# Makes a Debian package of a build, in BUILD/package, checks it with lintian and runs its programs from a separate
+# folder. LEVELS is the number of instruction sets for which it has numerical libraries, beside that of the rest; PYTHON
+# runs the Python module, if there is one:
 #   cmake -DBUILD=build -DLEVELS=2 -DFOLDER=work -DPYTHON=python3 -P package.cmake
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
 
-# Whoever runs this may have chosen libraries of a build.
+# The user may have set a path to libraries of a build.
 unset(ENV{LD_LIBRARY_PATH})
 file(REMOVE_RECURSE "${FOLDER}")
 file(MAKE_DIRECTORY "${FOLDER}")
@@ -20,7 +20,7 @@ expect("" "${cpack}" --config "${BUILD}/CPackConfig.cmake" -G DEB -B "${BUILD}/p
 file(GLOB PACKAGE "${BUILD}/package/*.deb")
 find_program(lintian lintian NO_CACHE)
 if(lintian)
-  # A user who is root runs the test in a container as well.
+  # --allow-root: in a container the test runs as root.
   expect("" "${lintian}" --fail-on error --allow-root "${PACKAGE}")
 endif()
 
@@ -38,7 +38,7 @@ if(LEVELS GREATER 0)
   expect("x86-64" "${prefix}/bin/vehd" --version)
 endif()
 
-# Where Debian's python3 looks, and with what it needs.
+# The folder in which Debian's python3 looks for modules, with the dependencies of the module.
 if(PYTHON)
   expect("Example 1[^\n]*\ndegree 6: error of q" "${CMAKE_COMMAND}" -E env
          "PYTHONPATH=${prefix}/lib/python3/dist-packages" "${PYTHON}" -m vehd --degree 6)

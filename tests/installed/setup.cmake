@@ -1,5 +1,5 @@
-# What bie/setup.cmake says and does about what is missing, in a folder that has nothing but it, a configuration that
-# misses a library, and an apt-get that only writes down how it is called, speaks of errors, and fails where asked to:
+# Messages and actions of bie/setup.cmake if something is missing: in a folder with only that file, a configuration that
+# lacks a library, and an apt-get that only records its arguments, prints errors, and fails on request:
 #   cmake -DSOURCE=source -DFOLDER=work -P setup.cmake
 cmake_minimum_required(VERSION 3.25)
 

@@ -8,8 +8,8 @@
 namespace vehd::testing {
 namespace {
 
-/// The long axis is determined where the two largest moments of the shape differ, and its inclination where it is not
-/// across the plane.
+/// The long axis is defined if the two largest moments of the shape differ, and its inclination if the axis is not
+/// normal to the plane.
 bool has_inclination(const State& state) {
   const Matrix shape = state.vesicles.back().position.bottomRows(state.vesicles.back().position.rows() - 1);
   const Eigen::SelfAdjointEigenSolver<Matrix3> moments(Matrix3(shape.transpose() * shape));
@@ -17,13 +17,13 @@ bool has_inclination(const State& state) {
   return values[2] - values[1] > 1e-2 * values[2] && std::abs(moments.eigenvectors()(1, 2)) < 0.99;
 }
 
-/// What a column is measured by where it is itself nothing but rounding: the largest V_m over the size for a charge
-/// whose conductivities all but cancel, the bending modulus for a tension that is free.
+/// Scale of the differences of a column, also if its values are only rounding: the largest V_m over the size for a
+/// charge whose conductivities nearly cancel, the bending modulus for a tension that is free.
 double natural_scale(const Column& column, const ShortRun& run) {
   double scale = column.least_scale;
   for (const RunRow& row : run.rows) {
     const double size = std::abs(column.value(row.diagnostics));
-    // Nothing until the criterion of poration is met.
+    // Infinite until the poration criterion is met.
     if (std::isfinite(size)) scale = std::max(scale, size);
     if (column.scale != nullptr) scale = std::max(scale, column.scale(row.diagnostics));
     if (column.member == &VesicleDiagnostics::q_north)
@@ -33,7 +33,7 @@ double natural_scale(const Column& column, const ShortRun& run) {
   const RunRow& last = run.rows.back();
   const double size = last.diagnostics.extent_x;
   if (column.member == &VesicleDiagnostics::tension_max) scale = std::max(scale, run.bending_modulus / (size * size));
-  // A vesicle that stays where it is does so up to rounding, over its size and over the time of the run.
+  // A vesicle at rest stays in place up to rounding, relative to its size and to the time of the run.
   if (column.depends == Column::Depends::on_place) {
     const bool is_velocity = column.powers[1] != 0;
     scale = std::max(scale, is_velocity ? size / std::max(last.state.time, std::numeric_limits<double>::min()) : size);
@@ -49,7 +49,7 @@ double difference(const Column& column, const RunRow& a, const RunRow& b, double
   if (!std::isfinite(here) && !std::isfinite(there)) return 0.0;
   const double size = std::abs(here - there / factor);
   if (column.member != &VesicleDiagnostics::inclination_deg) return size;
-  // An axis is the same after half a turn.
+  // An axis is unchanged by half a turn.
   return has_inclination(a.state) ? std::min(size, std::abs(180.0 - size)) : 0.0;
 }
 
@@ -59,13 +59,13 @@ double stress(const VesicleDiagnostics& d) {
   return 0.5 * (moment(i, j) + moment(j, i));
 }
 
-/// Forces that all but cancel are as exact as each of them.
+/// Largest contribution: contributions that nearly cancel are only as accurate as each of them.
 double largest_share(const VesicleDiagnostics& d) {
   const Rheology& r = d.rheology;
   return std::max({r.bending.norm(), r.tension.norm(), r.electric.norm(), r.others.norm(), r.viscosity.norm()});
 }
 
-/// Likewise of what they add up to.
+/// The corresponding scale of a net force.
 double share_of_force(const VesicleDiagnostics& d) { return largest_share(d) / std::sqrt(d.area); }
 
 bool same_time(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(a); }
@@ -89,7 +89,7 @@ const std::vector<Column>& columns() {
       {"inclination_deg", &VesicleDiagnostics::inclination_deg, {}, on_axes, 90.0},
       {"area_drift", &VesicleDiagnostics::area_drift, {}, on_nothing, 1.0},
       {"volume_drift", &VesicleDiagnostics::volume_drift, {}, on_nothing, 1.0},
-      // Held to 1e-6 by the step itself, more loosely than anything else.
+      // The step itself holds the strain only to 1e-6, more loosely than any other quantity.
       {"strain_max", &VesicleDiagnostics::strain_max, {}, on_nothing, 10.0},
       {"spectrum_tail", &VesicleDiagnostics::spectrum_tail, {}, on_nothing, 1.0},
       {"centroid_x", &VesicleDiagnostics::centroid_x, {1, 0, 0, 0}, on_place},
@@ -178,7 +178,7 @@ Deviation largest_deviation(const ShortRun& base, const ShortRun& other, const U
     if (column.depends > columns_up_to) continue;
     const double scale = natural_scale(column, base);
     for (std::size_t i = 0; i < base.rows.size(); ++i) {
-      // With a tolerance the step sizes follow an error estimate, of which rounding is a part.
+      // With a tolerance the step sizes follow an error estimate, which rounding affects.
       if (!same_time(base.rows[i].state.time * units.time, other.rows[i].state.time)) break;
       const double size = difference(column, base.rows[i], other.rows[i], column.factor(units));
       if (!(size <= worst.size * scale)) worst = {scale > 0.0 ? size / scale : size, column.name};

@@ -13,11 +13,11 @@ namespace vehd::testing {
 struct Column {
   std::string name;
   double VesicleDiagnostics::*member;
-  std::array<int, 4> powers{};  ///< of length, time, viscosity and potential
-  /// Whether it is the same in every place and orientation, in every place, or is the place or the drift itself.
+  std::array<int, 4> powers{};  ///< powers of length, time, viscosity and potential
+  /// Whether the value depends on neither position nor orientation, on orientation, or is a position or drift itself.
   enum class Depends { on_nothing, on_axes, on_place } depends = Depends::on_nothing;
-  double least_scale = 0.0;  ///< of differences, dimensionless: what is this small is rounding or solver error
-  /// Of a column that is no member, and by what differences of it are measured beside its own size; may be null.
+  double least_scale = 0.0;  ///< of differences, dimensionless; smaller ones are rounding or solver error
+  /// Value of a column that is no member, and the scale of its differences besides its own size; each may be null.
   double (*derived)(const VesicleDiagnostics&) = nullptr;
   double (*scale)(const VesicleDiagnostics&) = nullptr;
 
@@ -35,8 +35,8 @@ struct Deviation {
   std::string column;
 };
 
-/// The largest difference of two histories of the same physics in any row, over the largest value of the column.
-/// @param columns_up_to  those that depend on more are left out
+/// Largest difference in any row between two histories of the same physics, over the largest value of the column.
+/// @param columns_up_to  columns that depend on more are left out
 Deviation largest_deviation(const ShortRun& base, const ShortRun& other, const UnitFactors& units,
                             Column::Depends columns_up_to = Column::Depends::on_place);
 

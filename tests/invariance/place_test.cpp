@@ -19,8 +19,8 @@ BOOST_AUTO_TEST_SUITE(place_of_a_scene, *boost::unit_test::label("slow") * boost
 namespace {
 
 constexpr int kSteps = 3;
-/// Solvers stop at 1e-9 of what they solve for. Steps chosen by their error are others where rounding differs, and each
-/// as exact as the tolerance asks.
+/// Solvers stop at a relative tolerance of 1e-9. Adaptive step sizes differ if rounding differs, and the result of each
+/// run is as accurate as its tolerance.
 double bound_of(const Scene& scene) { return 1e-6 + scene.numerics.tolerance.value_or(0.0); }
 
 Vector3 random_vector(std::mt19937_64& random, double size) {
@@ -36,7 +36,7 @@ AxisAngle random_rotation(std::mt19937_64& random, const Scene& scene) {
   return {axis.x(), axis.y(), axis.z(), angle(random)};
 }
 
-/// The same way through the equations, whatever symmetry the place leaves, and no finer than that takes.
+/// The scene without use of symmetry, so that all positions are computed in the same way, at a degree of at most 10.
 Scene plain(Scene scene) {
   scene.numerics.symmetry = SymmetryUse::off;
   scene.numerics.order = std::min(scene.numerics.order, 10);
@@ -47,8 +47,8 @@ double radius_of(const ShortRun& run) {
   return std::sqrt(run.rows.front().diagnostics.area / (4.0 * std::numbers::pi));
 }
 
-// A linear flow about another point is the same flow with a drift. Poiseuille flow differs from place to place: along
-// its axis alone it is the same.
+// A linear flow about another point is the same flow with a drift. Poiseuille flow depends on the position: it is
+// unchanged only along its axis.
 void expect_the_same_elsewhere_in_a_drift(const NamedScene& of, const ShortRun& base, std::mt19937_64 random) {
   const bool poiseuille = of.scene.flow && of.scene.flow->kind == FlowKind::poiseuille;
   Vector3 by = random_vector(random, 3.0 * radius_of(base));
@@ -58,14 +58,14 @@ void expect_the_same_elsewhere_in_a_drift(const NamedScene& of, const ShortRun& 
   const double speed = 3.0 * radius_of(base) / base.rows.back().state.time;
   if (moved.membrane.mobile && !poiseuille && std::isfinite(speed)) {
     Vector3 drift = random_vector(random, speed);
-    // Only along a wall is the same distance kept.
+    // Only a drift along the wall keeps the distance from it.
     if (const auto& wall = problem.model.wall) drift -= wall->normal.dot(drift) * wall->normal;
     problem.model.effects.push_back(uniform_drift(drift));
   }
   const ShortRun elsewhere = short_run(problem, moved, kSteps);
   Deviation worst = largest_deviation(base, elsewhere, {}, Column::Depends::on_axes);
   if (worst.size >= bound_of(of.scene) && !of.scene.numerics.tolerance) {
-    // What solvers leave is another remainder where an iteration ends elsewhere.
+    // An iteration that ends elsewhere leaves a different residual.
     worst = largest_deviation(solved_run(of.scene, kSteps), solved_run(problem, moved, kSteps), {},
                               Column::Depends::on_axes);
   }
@@ -75,7 +75,7 @@ void expect_the_same_elsewhere_in_a_drift(const NamedScene& of, const ShortRun& 
 
 void expect_the_same_scalars_rotated(const NamedScene& of, const ShortRun& base, std::mt19937_64 random) {
   const ShortRun rotated = short_run(rotated_scene(of.scene, random_rotation(random, of.scene)), kSteps);
-  // Another grid on the same shape sees the same degrees, and what they leave out otherwise.
+  // Another grid on the same shape resolves the same degrees but truncates differently.
   double truncation = 0.0;
   for (const RunRow& row : base.rows) {
     // The fields of one vesicle on another have higher degrees than its shape.

@@ -33,7 +33,7 @@ struct Multiply {
   }
 };
 
-/// These have an area of 4π unless the scene says otherwise.
+/// These shapes have an area of 4π unless the scene gives another.
 bool has_size_of_its_own(const ShapeScene& shape) {
   switch (shape.kind) {
     case ShapeKind::prolate:
@@ -49,7 +49,7 @@ bool has_size_of_its_own(const ShapeScene& shape) {
   return false;
 }
 
-/// s of a radius base + s is a length, that of base + amplitude exp(exponent s) is not.
+/// In a radius base + s, s is a length; in base + amplitude exp(exponent s) it is not.
 bool has_modes_of_length(const ShapeScene& shape) { return shape.kind == ShapeKind::radial && !shape.amplitude; }
 
 }  // namespace

@@ -18,7 +18,7 @@ std::vector<NamedScene> all_scenes() {
   std::vector<NamedScene> result;
   for (const auto& path : files_ending(source / "docs/scenes", ".toml")) {
     Scene scene = read_scene(path);
-    // Without symmetry they take minutes: two_vesicles stands for them.
+    // Scenes of several vesicles take minutes without symmetry: two_vesicles stands for them.
     if (scene.vesicles.empty()) result.push_back({path.stem().string(), std::move(scene)});
   }
   result.push_back({"two_vesicles", read_scene(source / "tests/invariance/two_vesicles.toml")});

@@ -13,11 +13,11 @@ struct NamedScene {
   Scene scene;
 };
 
-/// Every shipped scene; every hard case in its short form; everything at once, and a pulse off the axis of a tube, on a
-/// vesicle that deforms and on a sphere, at every order in time and with a tolerance; spheres among several.
+/// All shipped scenes; all hard cases in short form; all effects at once, and a pulse off the axis of a tube, on a
+/// deforming vesicle and on a sphere, at every order in time and with a tolerance; spheres among several vesicles.
 std::vector<NamedScene> all_scenes();
 
-/// Random numbers of a scene's own, whatever other scenes there are.
+/// Random numbers of this scene, independent of the other scenes.
 std::mt19937_64 random_of(const NamedScene& of, const std::string& purpose);
 
 }  // namespace vehd::testing

@@ -43,8 +43,8 @@ ShortRun solved_run(const Scene& scene, int most_steps) { return solved_run(prob
 ShortRun solved_run(Problem problem, const Scene& scene, int most_steps) {
   const double usual = problem.settings.constraint_tolerance;
   solve_to_rounding(problem.settings);
-  // What rounding leaves of the area of a thin stomatocyte is next to what that asks for: whether a step ends there
-  // would depend on the processor.
+  // Rounding in the area of a thin stomatocyte is close to the tolerance of solve_to_rounding: with that one,
+  // convergence of a step would depend on the processor.
   problem.settings.constraint_tolerance = usual;
   return short_run(problem, scene, most_steps);
 }

@@ -7,7 +7,7 @@
 
 namespace vehd::testing {
 
-/// What is known after one step, or at the start.
+/// Results after one step, or at the start.
 struct RunRow {
   State state;                     ///< in laboratory coordinates
   VesicleDiagnostics diagnostics;  ///< of the last vesicle
@@ -19,21 +19,21 @@ struct RunRow {
 struct ShortRun {
   std::vector<RunRow> rows;
   double bending_modulus = 0.0;
-  bool stopped = false;  ///< before its end and before the most steps
-  std::string reason;    ///< why
+  bool stopped = false;  ///< before its end and before `most_steps` steps
+  std::string reason;    ///< why it stopped
 };
 
 /// The start of a scene and at most `most_steps` steps of it.
 ShortRun short_run(const Scene& scene, int most_steps);
 
-/// The same of a changed problem of the scene.
+/// The start and at most `most_steps` steps of a changed problem of the scene.
 ShortRun short_run(const Problem& problem, const Scene& scene, int most_steps);
 
-/// With solves that go on to rounding, but for area and volume: what the usual ones leave, up to 1e-5 of a step's
-/// change of curvature, is another remainder where they end elsewhere.
+/// short_run with solves that go on to rounding, except for area and volume: the usual residuals, up to 1e-5 of a
+/// step's change of curvature, differ if iterations end elsewhere.
 ShortRun solved_run(const Scene& scene, int most_steps);
 
-/// The same of a changed problem of the scene.
+/// solved_run of a changed problem of the scene.
 ShortRun solved_run(Problem problem, const Scene& scene, int most_steps);
 
 }  // namespace vehd::testing

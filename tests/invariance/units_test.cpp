@@ -18,10 +18,10 @@ namespace {
 
 constexpr int kSteps = 3;
 
-/// Powers of two are exact, so only a number with a dimension that meets one without can change a bit.
+/// Powers of two are exact, so a bit can change only if a number with a dimension is combined with one without.
 const UnitFactors kPowersOfTwo{std::ldexp(1.0, -17), std::ldexp(1.0, 23), std::ldexp(1.0, -10), std::ldexp(1.0, 13)};
 
-/// Empty where every bit agrees, otherwise what does not first.
+/// First difference in any bit; empty if all bits agree.
 std::string first_difference(const ShortRun& base, const ShortRun& scaled, const UnitFactors& factors) {
   if (base.stopped != scaled.stopped) return "one stops: " + base.reason + scaled.reason;
   if (base.rows.size() != scaled.rows.size()) return "numbers of steps";
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(powers_of_two_change_no_bit_and_other_factors_nothing_but_r
     const ShortRun scaled = short_run(in_units(scene, factors), kSteps);
     const double rounding = scene.numerics.tolerance ? 1e-6 : 1e-9;
     if (largest_deviation(base, scaled, factors).size < rounding) continue;
-    // Rounding decides what solvers leave: none is left.
+    // Residuals of solvers depend on rounding, so the solves go on to rounding.
     const Deviation worst =
         largest_deviation(solved_run(scene, kSteps), solved_run(in_units(scene, factors), kSteps), factors);
     BOOST_TEST(worst.size < 1e-6, name << ": " << worst.column << " by " << worst.size);

@@ -1,8 +1,7 @@
-#include "bie/linear/recycled_gcr.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
+#include "bie/linear/recycled_gcr.hpp"
 #include "bie/support/errors.hpp"
 #include "tests/linear/maps.hpp"
 
@@ -13,12 +12,12 @@ BOOST_AUTO_TEST_SUITE(first_solve)
 
 namespace {
 
-/// Unsymmetric with well-separated eigenvalues: Krylov spaces need some ten dimensions for it.
+/// Unsymmetric matrix with well-separated eigenvalues: Krylov spaces need about ten dimensions for it.
 Matrix test_matrix(Index size) { return banded_matrix(size, 5.0, 0.4, -0.2); }
 
 Vector test_vector(Index size) { return Vector::LinSpaced(size, -1.0, 2.0).array().cos(); }
 
-/// The first solve of an operator, from the x given.
+/// Solves with a new solver, starting from the given x.
 SolveReport solve(const LinearMap& map, const LinearMap& preconditioner, const Vector& rhs, Vector& x,
                   const SolveOptions& options) {
   RecycledGcr solver(map, preconditioner, rhs.size());

@@ -4,8 +4,8 @@
 
 namespace vehd::testing {
 
-/// Unsymmetric and not normal: eigenvalues from 1 to `largest`, beside them `above` in the first diagonal above and
-/// `below` in the third one below.
+/// Unsymmetric, non-normal matrix: diagonal from 1 to `largest`, `above` on the first superdiagonal and `below` on the
+/// third subdiagonal.
 inline Matrix banded_matrix(Index size, double largest, double above, double below) {
   Matrix matrix = Vector::LinSpaced(size, 1.0, largest).asDiagonal();
   matrix.diagonal(1).setConstant(above);

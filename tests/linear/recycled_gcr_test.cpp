@@ -14,7 +14,7 @@ using namespace vehd::testing;
 
 namespace {
 
-/// Unsymmetric with eigenvalues from 1 to 20, and far from normal.
+/// Unsymmetric matrix with eigenvalues from 1 to 20, far from normal.
 Matrix test_matrix(Index size) { return banded_matrix(size, 20.0, 2.0, -1.0); }
 
 Vector right_hand_side(Index size, double phase) { return (Vector::LinSpaced(size, -1.0, 2.0).array() + phase).cos(); }
@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(later_right_hand_sides_profit_from_former_ones) {
   RecycledGcr solver(map_of(matrix), identity, kSize);
   const Vector rhs = right_hand_side(kSize, 0.0);
   const int first = solver.solve(rhs, {}, {1e-8, 60}).report.iterations;
-  // In the span of what is known.
+  // The solution lies in the recycled subspace.
   BOOST_TEST(solver.solve(-3.0 * rhs, {}, {1e-7, 60}).report.iterations == 0);
   const Vector other = right_hand_side(kSize, 0.3);
   const RecycledGcr::Solution solution = solver.solve(other, {}, {1e-8, 60});
@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(what_was_learned_of_a_similar_operator_saves_iterations_and
 BOOST_AUTO_TEST_CASE(misleading_knowledge_costs_at_most_twice_the_iterations) {
   const Matrix matrix = test_matrix(kSize);
   const Matrix arguments = Matrix::Identity(kSize, 20);
-  // Of an operator that turns arguments round and mixes them.
+  // Images under a different operator, which reverses and mixes the arguments.
   const RecycledSubspace wrong{arguments, -test_matrix(kSize).transpose() * arguments.rowwise().reverse()};
   const Vector rhs = right_hand_side(kSize, 0.0);
   const int cold = RecycledGcr(map_of(matrix), identity, kSize).solve(rhs, {}, {1e-8, 60}).report.iterations;
@@ -109,8 +109,8 @@ BOOST_AUTO_TEST_CASE(misleading_knowledge_costs_at_most_twice_the_iterations) {
   BOOST_TEST(solution.report.iterations <= 2 * cold);
 }
 
-// One direction that is proposed again and again, larger than what is new in each proposal by the factor: of the digits
-// of what is left after orthonormalisation as many are lost.
+// Each proposed direction contains the same direction, larger than the new part by the factor: orthonormalisation loses
+// that many digits of the remainder.
 BOOST_AUTO_TEST_CASE(nearly_dependent_directions_fake_no_convergence) {
   const Matrix matrix = test_matrix(kSize);
   for (const double tolerance : {1e-6, 1e-10}) {
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(nearly_dependent_directions_fake_no_convergence) {
   }
 }
 
-// What cannot be reached in these digits is not claimed.
+// A residual below rounding must not be reported as reached.
 BOOST_AUTO_TEST_CASE(residual_below_rounding_is_never_claimed) {
   const Matrix matrix = test_matrix(kSize);
   const Matrix argument = 1e9 * Matrix::Identity(kSize, 1);
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(further_entries_belong_to_the_solution) {
 }
 
 BOOST_AUTO_TEST_CASE(an_operator_that_turns_by_a_right_angle_is_solved) {
-  // Residual and image are orthogonal, so the residual alone would be a blind direction.
+  // Residual and image are orthogonal, so a search direction along the residual makes no progress.
   Matrix matrix = Matrix::Zero(2, 2);
   matrix << 0.0, -1.0, 1.0, 0.0;
   const Vector rhs{{1.0, 0.0}};
@@ -214,7 +214,7 @@ BOOST_AUTO_TEST_CASE(zero_right_hand_side_costs_nothing) {
   BOOST_TEST(solution.x.isZero(0.0));
 }
 
-// "relative residual -nan" said nothing of what is wrong.
+// The message must name the cause instead of "relative residual -nan".
 BOOST_AUTO_TEST_CASE(numbers_that_are_not_finite_are_said_to_be_so) {
   const Matrix matrix = test_matrix(5);
   for (const double number : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Index kSize = 40;
 
-/// Close to the identity and far from symmetric.
+/// Matrix close to the identity and far from symmetric.
 Matrix test_matrix() {
   Matrix matrix = Matrix::Identity(kSize, kSize);
   matrix.diagonal(1).setConstant(0.4);
@@ -19,7 +19,7 @@ Matrix test_matrix() {
   return matrix;
 }
 
-/// Fixed columns without structure.
+/// Deterministic columns without structure.
 Matrix columns(Index count, double phase) {
   Matrix result(kSize, count);
   for (Index j = 0; j < count; ++j) {

@@ -18,7 +18,7 @@ Matrix3 turn_about_z(double degrees) {
   return Eigen::AngleAxisd(degrees / 180.0 * std::numbers::pi, Point::UnitZ()).toRotationMatrix();
 }
 
-/// Smallest angle, in degrees, by which one cube has to turn to lie like the other.
+/// Smallest rotation angle in degrees between two cubes, up to the symmetries of a cube.
 double angle_between_cubes(const Matrix3& a, const Matrix3& b) {
   double best = 180.0;
   for (int first = 0; first < 3; ++first) {
@@ -39,13 +39,13 @@ double angle_between_cubes(const Matrix3& a, const Matrix3& b) {
   return best;
 }
 
-/// Shape (33) whose surface coordinates are carried round: x(Qᵀ r̂). The surface itself stays.
+/// Shape (33) with rotated surface coordinates, x(Qᵀ r̂). The surface itself is unchanged.
 FrozenShape carried_33(const Matrix3& turn) {
   const FrozenShape shape = shape_33();
   return FrozenShape(project(16, [&](const Point& r) { return shape.position(turn.transpose() * r); }));
 }
 
-/// Shape (33) stretched along an axis, so that only turns about that axis are open.
+/// Shape (33) stretched along an axis, so that only rotations about that axis remain free.
 FrozenShape stretched_33(double factor) {
   const FrozenShape shape = shape_33();
   return FrozenShape(
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(truncation_error_is_the_highest_legendre_mode_of_the_faces)
   BOOST_TEST(error > 1e-8);
   BOOST_TEST(error < 1e-6);
   BOOST_TEST(std::abs(truncation_error(sphere, general_rotation()) / error - 1.0) < 1e-6);
-  // Turning the directions and the cube together is no change at all.
+  // Rotating the directions and the cube together has no effect.
   const double rotated = truncation_error(carried_33(general_rotation()), general_rotation());
   BOOST_TEST(std::abs(rotated / truncation_error(shape_33(), Matrix3::Identity()) - 1.0) < 1e-9);
 }
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(best_axes_are_found_wherever_they_are) {
     const BlockAxes axes = best_axes(shape);
     BOOST_TEST(truncation_error(shape, axes.in_directions) < 1.01 * best);
     BOOST_TEST(angle_between_cubes(axes.in_directions, turn * turn_about_z(45.0)) < 2.0);
-    // Blocks lie in space where the surface is: U carries the cube along with x.
+    // Blocks follow the surface in space: U carries the cube along with x.
     BOOST_TEST(angle_between_cubes(axes.in_space, turn_about_z(45.0)) < 2.0);
   }
 }
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(principal_axes_stay_where_no_turn_gains) {
 }
 
 BOOST_AUTO_TEST_CASE(marked_axes_are_kept) {
-  // Two equal stretches leave the turn about the third axis, three different ones nothing.
+  // With two equal stretches rotations about the third axis remain free; with three different ones none do.
   const BlockAxes stretched = best_axes(stretched_33(1.5));
   BOOST_TEST((stretched.in_directions.col(2) - Point::UnitZ()).norm() < 1e-9);
   BOOST_TEST(angle_between_cubes(stretched.in_directions, turn_about_z(45.0)) < 3.0);

@@ -21,7 +21,7 @@ BlockMeshOptions coarse() {
   return options;
 }
 
-/// Message of the MeshError that making a mesh ends with; empty if it does not.
+/// Message of the MeshError thrown when making a mesh; empty if there is none.
 std::string mesh_error(const FrozenShape& shape, const BlockMeshOptions& options) {
   try {
     make_block_mesh(shape, options);
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(jacobian_is_the_derivative_of_the_map) {
 }
 
 BOOST_AUTO_TEST_CASE(every_shape_has_well_formed_elements) {
-  // A ball in blocks has 1/√3 at the corners of its core, whatever the resolution.
+  // A ball divided into blocks has the value 1/√3 at the corners of its core, at every resolution.
   BOOST_TEST(
       std::abs(quality(make_block_mesh(off_centre_sphere(), coarse()), off_centre_sphere()).smallest_scaled_jacobian -
                std::sqrt(1.0 / 3.0)) < 1e-3);
@@ -104,10 +104,10 @@ BOOST_AUTO_TEST_CASE(tilted_disc_is_meshed_as_well_as_the_flat_one) {
 }
 
 BOOST_AUTO_TEST_CASE(volume_and_area_converge_at_the_order_of_the_quadrature) {
-  // The map is exact, so that two Gauss points per direction leave their own fourth order.
+  // The map is exact, so the error is that of two Gauss points per direction, of fourth order.
   for (const auto& [name, shape] : all_shapes()) {
     BlockMeshOptions options = coarse();
-    // On coarser meshes the errors of the areas of shape (33) and of the disc still pass through zero.
+    // On coarser meshes the area errors of shape (33) and of the disc still pass through zero.
     options.shell_layers = 1;
     options.cells_per_edge = 7;
     options.blend_layers = 3;
@@ -142,13 +142,13 @@ BOOST_AUTO_TEST_CASE(cells_are_relaxed_where_straight_lines_fold) {
   BlockMeshOptions near = coarse();
   near.cells_per_edge = 1;
   near.shell_growth = 3.0;
-  // Three layers of 1, 3 and 9 parts, and 27 more.
+  // Three layers of 1, 3 and 9 parts, and a fourth of 27.
   BlockMeshOptions far = near;
   far.shell_layers = 4;
   far.outer_radius = shape.radius() + (near.outer_radius - shape.radius()) * 40.0 / 13.0;
   const std::vector<HexMesh> meshes = make_block_meshes(shape, {near, far});
   const HexMesh& mesh = meshes.front();
-  // Of an odd number of cells some would have a kink of the map within them: it becomes even.
+  // With an odd number of cells some would contain a kink of the map, so the number is made even.
   BOOST_TEST(mesh.n_cells() == 8 + 24 * 4);
   BOOST_TEST(meshes.back().n_cells() == 8 + 24 * 5);
   constexpr int gauss_points = 6;
@@ -167,7 +167,7 @@ BOOST_AUTO_TEST_CASE(cells_are_relaxed_where_straight_lines_fold) {
   BOOST_TEST(faces.wrong == 0);
   BOOST_TEST(faces.largest_gap < 1e-13);
 
-  // Layers lie where gmsh's progression puts them, which it finds to eight digits.
+  // Layers lie where gmsh's progression places them, which it determines to eight digits.
   double apart = 0.0;
   for (std::size_t i = 0; i < mesh.interface().size(); ++i) {
     const auto points = [&](const HexMesh& of) {

@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_CASE(prolate_has_the_area_and_volume_of_the_formula) {
 }
 
 BOOST_AUTO_TEST_CASE(area_vector_is_the_normal_times_the_area_element) {
-  // Prolate: n dA/dω = (c a x, c a y, a² z) for the axes a, a, c.
+  // Prolate with axes a, a, c: n dA/dω = (c a x, c a y, a² z).
   const FrozenShape shape = prolate();
   for (const Point& r : {direction_of(0.0, 0.0), direction_of(1.2, 0.5), direction_of(2.6, 4.0)}) {
     BOOST_TEST((shape.area_vector(r) - Point(2.0 * r.x(), 2.0 * r.y(), r.z())).norm() < 1e-13);

@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(harmonics_are_orthonormal) {
 }
 
 BOOST_AUTO_TEST_CASE(squares_of_one_degree_sum_to_a_constant_up_to_degree_64) {
-  // Σ_m Y_{n,m}² = (2n + 1)/4π at every direction: shows any loss of digits at high degree.
+  // Σ_m Y_{n,m}² = (2n + 1)/4π in every direction: reveals any loss of digits at high degree.
   const HarmonicSeries all = all_harmonics(64);
   for (const Point& direction : some_directions()) {
     const Eigen::VectorXd y = all.value(direction);

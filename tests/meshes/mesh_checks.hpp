@@ -9,7 +9,7 @@
 
 #include "meshes/volume_mesh.hpp"
 
-/// What every mesh of either family must fulfil, each as a number or count that a test compares.
+/// Requirements on every mesh of either family, each as a number or count that a test compares.
 namespace vehd::meshes::testing {
 
 /// Random weights of a face's vertices; bilinear on a quadrilateral.
@@ -27,7 +27,7 @@ class FacePoints {
   std::uniform_real_distribution<double> uniform_{0.0, 1.0};
 };
 
-/// Point of a face with the given weights of vertices of the mesh.
+/// Point of a face, given weights of vertices of the mesh.
 inline Point unit_from_vertices(const VolumeMesh& mesh, int cell, const std::map<int, double>& weight_of_vertex) {
   Point unit = Point::Zero();
   for (int v = 0; v < vertices_per_cell(mesh.cell_shape()); ++v) {
@@ -46,7 +46,7 @@ struct FaceCounts {
   double largest_gap = 0.0;  ///< between the two images of random points of shared faces
 };
 
-/// Walks over all faces of a split mesh.
+/// Counts the faces of a split mesh by kind.
 inline FaceCounts count_faces(const VolumeMesh& mesh) {
   struct Place {
     int cell;
@@ -170,7 +170,7 @@ inline int vertices_of_both_regions(const VolumeMesh& mesh) {
   return static_cast<int>(std::count_if(used[0].begin(), used[0].end(), [&](int v) { return used[1].contains(v); }));
 }
 
-/// Largest distance between the two vertices of one point of γ.
+/// Largest distance between the two vertices at one point of γ.
 inline double vertex_pair_gap(const VolumeMesh& mesh) {
   const std::vector<Point> positions = mesh.vertex_positions();
   double largest = 0.0;
@@ -196,7 +196,7 @@ inline double jacobian_error(const VolumeMesh& mesh) {
   return largest;
 }
 
-/// Largest difference between points taken together and one by one.
+/// Largest difference between points evaluated in a batch and one by one.
 inline double batch_gap(const VolumeMesh& mesh) {
   const std::vector<Point> units{{0.1, 0.2, 0.3}, {0.0, 0.0, 1.0}, {0.25, 0.25, 0.25}, {0.6, 0.1, 0.2}};
   double largest = 0.0;
@@ -209,7 +209,7 @@ inline double batch_gap(const VolumeMesh& mesh) {
   return largest;
 }
 
-/// Whether two meshes are the same to the last bit.
+/// Whether two meshes are identical bit by bit.
 inline bool identical(const VolumeMesh& a, const VolumeMesh& b) {
   if (a.n_cells() != b.n_cells() || a.topology().vertices != b.topology().vertices) return false;
   for (int c = 0; c < a.n_cells(); ++c) {

@@ -18,7 +18,7 @@ using namespace vehd::meshes::testing;
 
 namespace {
 
-/// What gmsh finds in a file that it reads back.
+/// Contents of a file as read back by gmsh.
 struct ReadBack {
   std::size_t n_nodes = 0;
   std::array<std::size_t, 2> n_elements{};
@@ -30,7 +30,7 @@ struct ReadBack {
   std::array<double, 2> area{}, enclosed{};  ///< ∫dA and ∫x·n dA/3 of each group of faces
 };
 
-/// What the faces of both physical groups of the membrane add up to.
+/// Sums over the faces of both physical groups of the membrane.
 void read_membranes(int element_type, ReadBack& result) {
   std::vector<double> points, weights;
   gmsh::model::mesh::getIntegrationPoints(element_type, "Gauss8", points, weights);
@@ -39,7 +39,7 @@ void read_membranes(int element_type, ReadBack& result) {
     std::vector<double> jacobians, determinants, positions;
     gmsh::model::mesh::getJacobians(element_type, points, jacobians, determinants, positions, side + 1);
     for (std::size_t i = 0; i < determinants.size(); ++i) {
-      // Columns of the Jacobian are the two tangents and, from gmsh, the unit normal; stored by columns.
+      // The columns of the Jacobian are the two tangents and gmsh's unit normal; storage is by columns.
       const Point first(&jacobians[9 * i]), second(&jacobians[9 * i + 3]), x(&positions[3 * i]);
       const double weight = weights[i % weights.size()];
       result.area[side] += weight * first.cross(second).norm();
@@ -102,8 +102,8 @@ BOOST_AUTO_TEST_CASE(hexahedra_come_back_curved_and_right_handed) {
   BOOST_TEST(std::abs(found.volume[0] / shape.volume() - 1.0) < 1e-3);
   BOOST_TEST(std::abs(found.volume[1] / shell_volume(mesh, shape) - 1.0) < 1e-3);
   BOOST_TEST(found.n_views == 1u);
-  // Nodes on a lattice of 8 steps per edge: 9³ in the core cube, 6 · 8² + 2 on each of 4 and 8 further layers, and the
-  // membrane's once more.
+  // Nodes on a lattice of 8 steps per edge: 9³ in the core cube, 6 · 8² + 2 on each of 4 and 8 further layers, and
+  // those on the membrane a second time.
   for (const int side : {0, 1}) {
     BOOST_TEST(found.membranes[side] == (side == 0 ? "membrane" : "membrane_outside"));
     BOOST_TEST(std::abs(found.area[side] / shape.area() - 1.0) < 1e-3);
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(quality_of_the_second_order_mesh_is_that_of_the_file) {
   const ReadBack found = read_back(file, 12, 10);
   BOOST_TEST(std::abs(figures.volume_inside / found.volume[0] - 1.0) < 1e-12);
   BOOST_TEST(std::abs(figures.area / found.area[0] - 1.0) < 1e-4);
-  // The exact map would claim far less.
+  // The exact map would give a far smaller error.
   BOOST_TEST(std::abs(figures.volume_error) > 10.0 * std::abs(quality(exact, shape).volume_error));
 }
 

@@ -17,7 +17,7 @@ constexpr double kCoreHalfWidth = 0.35;
 
 Lattice inside_lattice() { return {Region::inside, 2, 2, {0.0, 1.0}}; }
 
-/// Nodes of a ball in blocks.
+/// Nodes of a ball divided into blocks.
 Eigen::Matrix3Xd ball(const Lattice& lattice) {
   Eigen::Matrix3Xd result(3, lattice.nodes().size());
   for (Eigen::Index i = 0; i < result.cols(); ++i) {
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(energy_of_a_stretch_is_that_of_the_formula) {
   const Lattice lattice = inside_lattice();
   const Eigen::Matrix3Xd nodes = ball(lattice);
   const Distortion distortion(lattice, nodes);
-  // Without distortion the density is 1: the energy is the volume, whichever way the ball is turned.
+  // Without distortion the density is 1: the energy equals the volume for every orientation of the ball.
   const double volume = distortion.energy(nodes);
   BOOST_TEST(std::abs(volume / (4.0 / 3.0 * std::numbers::pi) - 1.0) < 0.02);
   const Matrix3 turn = Eigen::AngleAxisd(0.8, Point(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(gradient_is_the_derivative_of_the_energy) {
   BOOST_TEST(std::abs(distortion.gradient(x).cwiseProduct(direction).sum() / slope - 1.0) < 1e-8);
 }
 
-// An affine map is the least distorted one with its values on the boundary: nodes that were displaced come back to it.
+// The affine map has the least distortion for its boundary values: displaced nodes return to it.
 BOOST_AUTO_TEST_CASE(ball_becomes_an_ellipsoid_by_the_affine_map) {
   const Lattice lattice = inside_lattice();
   const Eigen::Matrix3Xd nodes = ball(lattice);

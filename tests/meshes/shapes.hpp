@@ -10,7 +10,7 @@
 #include "meshes/frozen_shape.hpp"
 #include "meshes/gauss_rule.hpp"
 
-/// Shapes of the mesh tests, as harmonic coefficients.
+/// Shapes of the mesh tests, in harmonic coefficients.
 namespace vehd::meshes::testing {
 
 using Field = std::function<Point(const Point& direction)>;
@@ -55,7 +55,7 @@ inline FrozenShape prolate() {
   return FrozenShape(project(1, [](const Point& r) { return Point(r.x(), r.y(), 2.0 * r.z()); }));
 }
 
-/// Shape (33): ρ = 1 + 0.2 exp(−3 Re Y_3^2), cut at degree 16.
+/// Shape (33): ρ = 1 + 0.2 exp(−3 Re Y_3^2), truncated at degree 16.
 inline FrozenShape shape_33() {
   return FrozenShape(project(16, [](const Point& r) {
     const double y = 0.25 * std::sqrt(105.0 / (2.0 * std::numbers::pi)) * r.z() * (r.x() * r.x() - r.y() * r.y());
@@ -80,7 +80,7 @@ inline FrozenShape rotated_disc() {
   return FrozenShape(project(5, [&](const Point& r) { return Point(tilt * disc_point(carried.transpose() * r)); }));
 }
 
-/// No symmetry at all: ρ of several degrees, stretched, rotated and moved.
+/// Shape without symmetry: ρ of several degrees, stretched, rotated and translated.
 inline FrozenShape asymmetric() {
   const Matrix3 map = general_rotation() * Point(1.0, 0.9, 1.25).asDiagonal();
   return FrozenShape(project(16, [&](const Point& r) {

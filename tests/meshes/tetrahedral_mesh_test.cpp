@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(geometry_converges_with_the_order_of_quadratic_elements) {
     const TetMesh fine_mesh = make_tetrahedral_mesh(shape, of_size(0.15));
     const MeshQuality wide = quality(wide_mesh, shape);
     const MeshQuality fine = quality(fine_mesh, shape);
-    // Edge lengths by the number of faces: gmsh follows a size only roughly.
+    // Edge lengths are compared by the number of faces: gmsh follows a given size only roughly.
     const double refinement = 0.5 * std::log2(double(fine_mesh.interface().size()) / wide_mesh.interface().size());
     BOOST_TEST(std::log2(wide.volume_error / fine.volume_error) / refinement > 3.3, name);
     BOOST_TEST(std::log2(wide.area_error / fine.area_error) / refinement > 3.3, name);
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(two_runs_give_the_same_mesh) {
 }
 
 BOOST_AUTO_TEST_CASE(no_cell_has_two_faces_on_the_membrane) {
-  // gmsh leaves such cells here; on a smooth membrane their two faces would meet at 180°.
+  // gmsh produces such cells here; on a smooth membrane their two faces would meet at 180°.
   const TetMesh mesh = make_tetrahedral_mesh(rotated_disc(), of_size(0.25));
   for (const MeshCell& cell : mesh.topology().cells) {
     BOOST_REQUIRE(std::count(cell.faces.begin(), cell.faces.end(), FaceKind::membrane) < 2);
@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(flat_elements_are_errors_that_name_the_place) {
 }
 
 BOOST_AUTO_TEST_CASE(self_intersecting_shape_is_an_error) {
-  // A third harmonic this large turns the surface through itself near the poles.
+  // A third harmonic this large makes the surface intersect itself near the poles.
   const FrozenShape shape(
       project(4, [](const Point& r) { return Point(r.x(), r.y(), r.z() * (2.0 - 5.0 * r.x() * r.x())); }));
   BOOST_CHECK_THROW(make_tetrahedral_mesh(shape), MeshError);

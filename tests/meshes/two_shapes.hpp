@@ -8,8 +8,8 @@
 /// Two membranes without symmetry side by side.
 namespace vehd::meshes::testing {
 
-/// Coefficients of two shapes of different form and size, rotated against one another and off any axis; the gap between
-/// their nearest points has the direction (1, 2, 4).
+/// Coefficients of two shapes of different form and size, rotated relative to each other and to the axes; the gap
+/// between their nearest points has the direction (1, 2, 4).
 inline std::array<Eigen::MatrixXd, 2> two_positions(double gap, int degree = 12) {
   const Point along = Point(1.0, 2.0, 4.0).normalized();
   const Matrix3 rotation = general_rotation();

@@ -16,7 +16,7 @@ namespace {
 
 std::vector<FrozenShape> list_of(const std::array<FrozenShape, 2>& shapes) { return {shapes[0], shapes[1]}; }
 
-/// Message of the MeshError that making a mesh ends with; empty if it does not.
+/// Message of the MeshError thrown when making a mesh; empty if there is none.
 std::string mesh_error(const std::array<FrozenShape, 2>& shapes, const BoxMeshOptions& options = {}) {
   try {
     make_two_vesicle_mesh(shapes, options);
@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(plane_lies_across_the_gap_in_its_middle) {
     const SeparatingPlane plane = separating_plane(shapes[0], shapes[1]);
     BOOST_TEST_CONTEXT("gap " << gap) {
       BOOST_TEST(plane.width > 0.94 * gap);
-      // Points of smooth surfaces miss the very nearest ones.
+      // Sample points on smooth surfaces miss the nearest pair of points.
       BOOST_TEST(plane.width < gap + 3e-3);
       BOOST_TEST(plane.normal.dot(Point(1.0, 2.0, 4.0).normalized()) > 0.95);
       for_each_sphere_point(20, [&](const Point& r, double) {

@@ -13,10 +13,10 @@ using namespace vehd::meshes::testing;
 
 namespace {
 
-/// Turned any way.
+/// Arbitrary wall normal.
 const Point kNormal = Point(1.0, -2.0, 0.5).normalized();
 
-/// Beside a shape, at a gap of the nearest point of a fine grid.
+/// Wall beside a shape, at the given gap from the nearest point of a fine grid.
 Wall wall_at(const FrozenShape& shape, double gap, const Point& normal = kNormal) {
   double lowest = std::numeric_limits<double>::max();
   for_each_sphere_point(120, [&](const Point& r, double) { lowest = std::min(lowest, normal.dot(shape.position(r))); });
@@ -39,7 +39,7 @@ std::string mesh_error(const FrozenShape& shape, const Wall& wall, const BoxMesh
   return "";
 }
 
-/// Volume of the outside, and of each kind of face the area with the vector ∫ n dA, n out of the cell.
+/// Volume of the outside; for each kind of face its area and the vector ∫ n dA, with n out of the cell.
 struct Measures {
   double volume = 0.0;
   std::map<FaceKind, double> area;
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(eighteen_blocks_meet_face_to_face_and_end_on_the_wall) {
   BOOST_TEST(faces.wrong == 0);
   BOOST_TEST(faces.membrane == 48);
   BOOST_TEST(faces.outer == 20);
-  // Below the box, and a strip of 2 faces in both layers at each of its four edges.
+  // The faces below the box, and a strip of 2 faces in both layers at each of its four edges.
   BOOST_TEST(faces.wall == 4 + 4 * 2 * 2);
   BOOST_TEST(faces.largest_gap < 1e-13);
   BOOST_TEST(vertices_of_both_regions(mesh) == 0);
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(volume_and_areas_are_those_of_the_half_space_and_converge) 
     BOOST_TEST_MESSAGE("volume " << errors[level] << ", wall " << of_wall << ", sphere " << of_sphere);
     BOOST_TEST(std::abs(of_wall) < 1e-4);
     BOOST_TEST(std::abs(of_sphere) < 1e-4);
-    // Out of the fluid: the wall against its normal, the half sphere along it, the membrane closed.
+    // Normals point out of the fluid: against the wall's, along the half sphere's; the membrane is closed.
     BOOST_TEST((found.vector.at(FaceKind::wall) / (pi * radius * radius) + wall.normal).norm() < 1e-4);
     BOOST_TEST((found.vector.at(FaceKind::outer_sphere) / (pi * radius * radius) - wall.normal).norm() < 1e-4);
     BOOST_TEST(found.vector.at(FaceKind::membrane).norm() < 1e-3);

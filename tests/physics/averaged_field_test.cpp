@@ -42,13 +42,13 @@ struct GiantSphere {
     require_converged(solved.report, "amplitudes");
     return std::move(solved.membranes.front());
   }
-  /// z cos θ, values.
+  /// Grid values of z cos θ.
   [[nodiscard]] Matrix dipole(Complex z) const {
     Matrix values(cosine.size(), 2);
     values << z.real() * cosine, z.imag() * cosine;
     return values;
   }
-  /// e_θ.
+  /// Grid values of the unit vector e_θ.
   [[nodiscard]] Matrix along_meridian() const {
     const Matrix r = membrane.surface.position / kRadius;
     const Vector sine = (1.0 - cosine.array().square()).sqrt();
@@ -56,7 +56,7 @@ struct GiantSphere {
     e << cosine.cwiseQuotient(sine).asDiagonal() * r.leftCols(2), -sine;
     return e;
   }
-  /// Q of a force: 6/E² times the P₂ part of normal plus twice that of tangential stress, outside minus inside.
+  /// Drive Q of a force: 6/E² times the P₂ part of normal plus twice that of tangential stress, outside minus inside.
   [[nodiscard]] double drive(const Matrix& force, double field) const {
     const Vector weights = membrane.surface.quadrature / membrane.surface.quadrature.sum();
     const Vector legendre = 1.5 * cosine.array().square() - 0.5;
@@ -69,7 +69,7 @@ struct GiantSphere {
   }
 };
 
-/// Where f changes its sign between a and b, by halving on a logarithmic scale.
+/// Root of f between a and b, by bisection on a logarithmic scale.
 template <typename Function>
 double root(double a, double b, const Function& f) {
   const bool rising = f(b) > 0.0;
@@ -125,7 +125,7 @@ BOOST_FIXTURE_TEST_CASE(sphere_has_the_closed_form_from_dc_to_radio_frequency, G
   }
 }
 
-// Roots of |1 + κ(1 + s)|² = 4S.
+// The drive of a sphere changes sign at the roots of |1 + κ(1 + s)|² = 4S.
 BOOST_FIXTURE_TEST_CASE(a_sphere_is_driven_the_other_way_from_two_frequencies_on, GiantSphere) {
   struct Published {
     double conductivity_ratio, first, second;
@@ -141,13 +141,13 @@ BOOST_FIXTURE_TEST_CASE(a_sphere_is_driven_the_other_way_from_two_frequencies_on
     const double f_c = root(10.0, 1e4, of_solve), f_2 = root(1e5, 1e7, of_solve);
     BOOST_TEST(std::abs(f_c / root(10.0, 1e4, closed) - 1.0) < 1e-6);
     BOOST_TEST(std::abs(f_2 / root(1e5, 1e7, closed) - 1.0) < 1e-6);
-    // Half of the last digit that is stated.
+    // Half a unit of the last published digit.
     BOOST_TEST(std::abs(f_c - published.first) < 0.051, f_c);
     BOOST_TEST(std::abs(f_2 - published.second) < 0.51e3, f_2);
   }
 }
 
-// The equations in time have V = Re z, E at the start of a period and V = −Im z, no E a quarter later.
+// V = Re z with field E at the start of a period; V = −Im z with zero field a quarter period later.
 BOOST_AUTO_TEST_CASE(amplitude_is_the_steady_alternation_of_the_equations_in_time) {
   const Space space(10);
   const Membrane membrane = make_membrane(space, asymmetric_shape(10), kLaplaceLayers);
@@ -199,7 +199,7 @@ BOOST_AUTO_TEST_CASE(insulating_fluid_takes_the_field_off_the_membrane) {
   electric.averaged_frequency = 1.0;
   const AveragedFields solved = solve_averaged_fields({{{electric, membrane}, {1.0, 0.1}}}, {}, kTight);
   BOOST_TEST(solved.membranes.front().potential.cwiseAbs().maxCoeff() < 1e-12);
-  // Inside the field is 3/2 E, outside it has no normal part.
+  // The field inside is 3/2 E; outside it has no normal component.
   const Matrix q = space.fine.synthesize(solved.membranes.front().charge);
   BOOST_TEST(max_difference(q.col(0), -1.5 * membrane.surface.position.col(2)) < 1e-11);
 }

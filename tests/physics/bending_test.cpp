@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(energy_of_any_sphere_is_four_pi) {
 }
 
 BOOST_AUTO_TEST_CASE(force_is_minus_the_gradient_of_the_energy) {
-  // Central differences of E_b along random perturbations; what remains is the degrees of H above p.
+  // Central differences of E_b along random perturbations; the remaining error comes from the degrees of H above p.
   const Matrix force = bending_force(kBending, membrane);
   for (const int band : {2, 4, 6, 8}) {
     Matrix direction = smooth_coefficients(kOrder, band, 3, 60 + band);
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(force_turns_with_the_shape) {
 }
 
 BOOST_AUTO_TEST_CASE(curvature_falls_as_a_membrane_grows) {
-  // H ~ 1/size.
+  // H is proportional to 1/size.
   const Vector increment = curvature_increment(membrane, space.fine, space.fine.synthesize_hessian(position));
   BOOST_TEST(relative_difference(increment, space.fine.analyze(-membrane.surface.mean_curvature)) < 1e-12);
 }
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(curvature_increment_is_the_first_variation_at_material_poin
 }
 
 BOOST_AUTO_TEST_CASE(rigid_motion_has_no_curvature_increment) {
-  // Δ_γ(a + Bx) = 2H B n, normal to n for antisymmetric B, and nothing is stretched.
+  // Δ_γ(a + Bx) = 2H B n, normal to n for antisymmetric B; a rotation does not stretch the membrane.
   Matrix3 spin;
   spin << 0.0, -0.9, -0.5, 0.9, 0.0, -0.2, 0.5, 0.2, 0.0;
   const Matrix motion = translated(position * spin.transpose(), {1.0, -2.0, 0.5});
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(rigid_motion_has_no_curvature_increment) {
 }
 
 BOOST_AUTO_TEST_CASE(linearised_force_of_the_present_curvature_is_the_force) {
-  // (28a) at the shape itself: a shape in equilibrium stays there whatever the time step.
+  // (28a) at the shape itself: a shape in equilibrium is stationary for every time step.
   const Vector curvature = space.fine.analyze(membrane.surface.mean_curvature);
   BOOST_TEST(relative_difference(linearised_bending_force(kBending, membrane, curvature),
                                  bending_force(kBending, membrane)) < 1e-14);

@@ -23,13 +23,13 @@ SeveralMembranes two_spheres(int order, double gap) {
   return {order, {translated(sphere(order), -up), translated(sphere(order), up)}, kLaplaceLayers, kLaplacePairs};
 }
 
-/// Conductivities σ_i/σ_e = k.
+/// Parameters with the conductivity ratio σ_i/σ_e = k.
 ElectricParameters with_ratio(const Vector3& field, double k) {
   return std::isinf(k) ? ElectricParameters{field, 1.0, 0.0, 1.0} : ElectricParameters{field, k, 1.0, 1.0};
 }
 
 struct Forces {
-  std::vector<Vector3> on;  ///< each membrane
+  std::vector<Vector3> on;  ///< force on each membrane
   int iterations;
 };
 
@@ -61,12 +61,12 @@ std::vector<Vector> potentials_of(const std::vector<Unknowns>& charged) {
   return all;
 }
 
-/// Attraction of the two, which are one above the other.
+/// Attraction of two membranes, one above the other.
 double attraction(const Forces& forces) { return forces.on[0].z(); }
 
 }  // namespace
 
-// The digits that the multipole system is known by elsewhere.
+// Published digits of the forces of the multipole system.
 BOOST_AUTO_TEST_CASE(multipole_systems_have_the_published_forces) {
   struct Row {
     double gap, ratio, along, across;
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(steady_membranes_act_as_insulators) {
   }
 }
 
-// One step from no charge is the steady state of a membrane that conducts C_m/dt more.
+// One step from zero charge is the steady state of a membrane whose conductance is larger by C_m/dt.
 BOOST_AUTO_TEST_CASE(two_spheres_charge_in_steps_as_their_multipoles_do) {
   const SeveralMembranes spheres = two_spheres(16, 0.5);
   const ElectricParameters electric = with_ratio({0.0, 0.0, 1.0}, 4.0);

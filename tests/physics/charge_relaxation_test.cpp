@@ -14,14 +14,14 @@ namespace {
 
 constexpr double kTight = 1e-13;
 
-/// Rates of these charges.
+/// Rates of the given charges.
 Unknowns rates_of(const ChargingMembrane& of, const Unknowns& charges) {
   const RelaxingField found = fields_of_charges({of}, {}, {charges}, kTight, {Vector()}).front();
   require_converged(found.report, "V_m");
   return charge_rates(of, found, current_through(of.in_field.membrane, membrane_current(of), found.potential));
 }
 
-/// After a step of backward Euler.
+/// Advances the charges by one step of backward Euler.
 void relax(const ChargingMembrane& of, double dt, Unknowns& charges) {
   std::vector<Unknowns> all;
   require_converged(charge_membranes({of}, {}, dt, kTight, {charges}, nullptr, all), "charges");
@@ -37,7 +37,7 @@ struct RelaxingSphere {
 
   RelaxingSphere() { electric.displacement_current = true; }
 
-  /// f cos θ.
+  /// Coefficients of f cos θ.
   [[nodiscard]] Vector dipole(double f) const {
     return f / radius * Vector(space.fine.analyze(membrane.surface.position).col(2));
   }
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(small_permittivity_is_the_leaky_dielectric_on_any_shape) {
 }
 
 BOOST_AUTO_TEST_CASE(a_step_ends_in_charges_whose_field_makes_that_step) {
-  // Backward Euler: the rate at the end, found anew from the charges there, times dt is the change.
+  // Backward Euler: the change is dt times the rate at the end, recomputed from the charges there.
   const Space space(12);
   const Membrane membrane = make_membrane(space, asymmetric_shape(12), kLaplaceLayers);
   ElectricParameters electric{{0.4, -0.3, 1.1}, 0.6, 1.7, 0.4, 0.5};

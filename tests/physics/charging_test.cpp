@@ -30,7 +30,7 @@ struct ChargingSphere {
   [[nodiscard]] double exact(double time) const {
     return steady() * -std::expm1(-time * (kappa() + charging.conductance) / charging.capacitance);
   }
-  /// V cos θ.
+  /// Coefficients of V cos θ.
   [[nodiscard]] Vector dipole(double v) const { return v * space.fine.analyze(membrane.surface.position).col(2); }
   /// V_m at `time` after n_steps steps from zero.
   [[nodiscard]] Vector charged(double time, int n_steps) const {
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(law_holds_at_extreme_conductivity_ratios) {
 }
 
 BOOST_AUTO_TEST_CASE(mean_potential_leaks_through_the_membrane_alone) {
-  // No current leaves a closed membrane: C_m V̇ = −G_m V for the mean, whatever the field.
+  // No net current leaves a closed membrane: the mean obeys C_m V̇ = −G_m V for every field.
   const double dt = 0.3;
   Vector v = 0.9 * harmonic(charging_order, 0, 0);
   charge(dt, v);

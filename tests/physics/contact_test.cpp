@@ -17,13 +17,13 @@ namespace {
 
 constexpr int kOrder = 12;
 
-/// Without symmetry, the gap between them about 0.1.
+/// Two shapes without symmetry, about 0.1 apart.
 std::vector<Matrix> two_shapes() {
   const Matrix turned = ellipsoid(kOrder, {0.8, 1.0, 0.9}) * general_rotation().transpose();
   return {ellipsoid(kOrder, {1.0, 0.9, 1.2}), translated(turned, {1.9, 0.4, 0.3})};
 }
 
-/// With all that refers to it.
+/// Shapes with their space and membranes.
 struct Membranes {
   Space space{kOrder};
   std::vector<Matrix> positions;
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(action_is_reaction) {
     return forces[a].transpose() * membranes.membranes[a].surface.quadrature;
   };
   BOOST_TEST((total(0) + total(1)).norm() < 1e-7 * total(0).norm(), (total(0) + total(1)).norm() / total(0).norm());
-  // The second is at larger x, and a positive energy repels.
+  // The second shape is at larger x, and a positive energy repels.
   BOOST_TEST(total(0).x() < 0.0);
 }
 
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(energy_of_two_spheres_is_that_of_one_integral) {
     const auto part = [](double r) { return std::exp(-r * r / (kRange * kRange)); };
     return kEnergy / s * (part(s - 1.0) - part(s + 1.0));
   };
-  // Over the other sphere by the same substitution: 2π/d ∫ W(s) s ds.
+  // The same substitution over the other sphere gives 2π/d ∫ W(s) s ds.
   const int n = 200;
   const GaussLegendre rule = gauss_legendre(n);
   double exact = 0.0;

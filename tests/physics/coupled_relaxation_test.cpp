@@ -37,7 +37,7 @@ std::vector<ChargingMembrane> charging_in(const SeveralMembranes& several, const
   return several.charging(electric, std::vector<ChargingParameters>(several.count(), kMembrane));
 }
 
-/// Their rates where nothing but leaks and pumps conducts through the membrane.
+/// Rates of the charges when only leaks and pumps conduct through the membrane.
 Unknowns rates_of(const ChargingMembrane& of, const RelaxingField& field) {
   return charge_rates(of, field, current_through(of.in_field.membrane, membrane_current(of), field.potential));
 }
@@ -48,7 +48,7 @@ std::vector<Unknowns> no_charges(const SeveralMembranes& several) {
   return all;
 }
 
-/// A step of backward Euler.
+/// Advances the charges by one step of backward Euler.
 void charge(const std::vector<ChargingMembrane>& membranes, const Interaction& interaction, double dt,
             std::vector<Unknowns>& charges) {
   std::vector<Unknowns> reached;
@@ -64,7 +64,7 @@ std::vector<RelaxingField> fields(const std::vector<ChargingMembrane>& membranes
   return found;
 }
 
-/// What pulls the lower one up.
+/// Upward force on the lower membrane.
 double attraction(const SeveralMembranes& several, const ElectricParameters& electric,
                   const std::vector<RelaxingField>& found) {
   const Matrix force =
@@ -84,8 +84,8 @@ std::pair<Matrix, Matrix> charge_amplitudes(const ChargingMembrane& of, double f
 
 }  // namespace
 
-// One implicit step from no charge is a steady state between fluids that conduct ε/dt more, of a membrane that conducts
-// C_m/dt more: K_i/K_e and (C_m/dt + G_m)/K_e in the multipoles.
+// One implicit step from zero charge is the steady state with fluid conductivities larger by ε/dt and a membrane
+// conductance larger by C_m/dt: K_i/K_e and (C_m/dt + G_m)/K_e in the multipoles.
 BOOST_AUTO_TEST_CASE(one_step_of_two_spheres_is_that_of_their_multipoles) {
   const SeveralMembranes spheres = spheres_above_each_other(16, 2.5);
   const ElectricParameters electric = relaxing({0.0, 0.0, 1.0}, 6.0);
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(one_step_of_two_spheres_is_that_of_their_multipoles) {
   }
 }
 
-// k_m = k/(1 + m K_i/y) in the multipoles.
+// The multipoles use k_m = k/(1 + m K_i/y).
 BOOST_AUTO_TEST_CASE(two_spheres_in_an_alternating_field_attract_as_their_complex_multipoles_say) {
   const SeveralMembranes spheres = spheres_above_each_other(16, 2.5);
   ElectricParameters electric = relaxing({0.0, 0.0, 1.0}, 6.0);
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(two_spheres_in_an_alternating_field_attract_as_their_comple
   }
 }
 
-// Field of the dipole of the other: V grows by −2 g/d³ along it.
+// In the dipole field of the other sphere V grows by −2 g/d³ along the line of centres.
 BOOST_AUTO_TEST_CASE(a_sphere_far_away_counts_with_the_third_power_of_its_distance) {
   const ElectricParameters electric = relaxing({0.0, 0.0, 1.0}, 6.0);
   const double dt = 0.2, k_in = 6.0 + 0.2 / dt, k_out = 1.7 + 0.4 / dt, g = (0.8 / dt + 0.3) / k_out;
@@ -131,13 +131,13 @@ BOOST_AUTO_TEST_CASE(a_sphere_far_away_counts_with_the_third_power_of_its_distan
     const Index along = coefficient_index(1, 0);
     const double growth = charges[0].transmembrane_potential[along] / alone[0].transmembrane_potential[along] - 1.0;
     const double expected = -2.0 * dipole / std::pow(distance, 3);
-    // The dipoles that the dipoles make are the next term.
+    // The next term comes from the dipoles induced by the dipoles.
     BOOST_TEST(std::abs(growth - expected) < 2.0 * expected * expected + 1e-11, growth << ", " << expected);
   }
 }
 
-// Of two membranes without symmetry, each with fluids and properties of its own: with the charges of an amplitude the
-// potential is its real part and the rates are those of the alternation.
+// Two membranes without symmetry and with different fluids and properties: for the charges of an amplitude the
+// potential is the real part of its amplitude, and the rates are those of the alternation.
 BOOST_AUTO_TEST_CASE(charges_of_two_membranes_change_as_their_amplitudes_alternate) {
   const SeveralMembranes two(10, {asymmetric_shape(10), translated(ellipsoid(10, {0.8, 0.7, 0.9}), {0.5, 0.3, 2.6})},
                              kLaplaceLayers, kLaplacePairs);
@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(charges_of_two_membranes_change_as_their_amplitudes_alterna
     const Vector potential = solved.membranes[a].potential.col(0);
     BOOST_TEST(max_difference(now[a].potential, potential) < 1e-3 * potential.norm());
     const Unknowns rates = rates_of(membranes[a], now[a]);
-    // A quarter of a period later the alternation has minus the imaginary part.
+    // A quarter of a period later the alternating potential is minus the imaginary part.
     BOOST_TEST(max_difference(rates.transmembrane_potential, -omega * inner[a].col(1)) <
                3e-3 * omega * inner[a].norm());
     BOOST_TEST(max_difference(rates.free_charge, -omega * sum[a].col(1)) < 3e-3 * omega * sum[a].norm());

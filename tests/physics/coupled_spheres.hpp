@@ -8,26 +8,26 @@
 #include "bie/support/types.hpp"
 
 /// Two equal spheres of radius 1 about (0, 0, ±d/2) in a uniform field of size 1 in a fluid of permittivity 1, by
-/// multipoles about both centres: linear systems that are exact but for the highest multipole.
+/// multipoles about both centres: the linear systems are exact up to the truncation at the highest multipole.
 namespace vehd::testing {
 
-/// Of degree m for conductivities σ_i/σ_e = k, infinite k included.
+/// Polarisability of degree m for conductivities σ_i/σ_e = k, infinite k included.
 inline double polarisability(int m, double k) { return std::isinf(k) ? -1.0 : -m * (k - 1.0) / (m * (k + 1.0) + 1.0); }
 inline std::complex<double> polarisability(int m, std::complex<double> k) {
   return -static_cast<double>(m) * (k - 1.0) / (static_cast<double>(m) * (k + 1.0) + 1.0);
 }
 
-/// Of two quantities, or its mean over a period where they are complex amplitudes.
+/// Product of two quantities, or its mean over a period for complex amplitudes.
 inline double mean_product(double a, double b) { return a * b; }
 inline double mean_product(std::complex<double> a, std::complex<double> b) { return 0.5 * (std::conj(a) * b).real(); }
 
-/// Attraction of the spheres.
+/// Forces of attraction between the spheres.
 struct SphereForces {
   double along;   ///< in a field along the line of centres
   double across;  ///< in a field across it: they repel each other
 };
 
-/// @param k  σ_i/σ_e that a multipole of degree m sees, k(m); complex at a frequency, and the forces are means then
+/// @param k  effective σ_i/σ_e for a multipole of degree m, k(m); if complex (at a frequency), the forces are means
 template <class Ratio>
 SphereForces sphere_forces_of(double gap, const Ratio& k, int n_multipoles = 60) {
   using Scalar = decltype(k(1));
@@ -50,7 +50,7 @@ SphereForces sphere_forces_of(double gap, const Ratio& k, int n_multipoles = 60)
       }
     }
     const Unknowns a = system.partialPivLu().solve(rhs);
-    // The field that each multipole is in, A = g L.
+    // Field acting on each multipole, A = g L.
     const auto bracket = [&](int m) -> Scalar { return a[m - 1] / polarisability(m, k(m)); };
     double force = 0.0;
     for (int n = 1; n < n_multipoles; ++n) {
@@ -67,7 +67,7 @@ inline SphereForces sphere_forces(double gap, double k) {
   return sphere_forces_of(gap, [k](int) { return k; });
 }
 
-/// With a membrane of conductance G_m (C_m/dt + G_m after one step from no charge).
+/// Forces on spheres with a membrane of conductance G_m (C_m/dt + G_m after one step from zero charge).
 inline SphereForces charged_sphere_forces(double gap, double k, double conductance) {
   return sphere_forces_of(gap, [=](int m) { return k / (1.0 + m * k / conductance); });
 }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kElasticDegree = 32;
 
-/// κ_B between 0.4 and 1, c between −1 and −0.2.
+/// Material with κ_B between 0.4 and 1 and c between −1 and −0.2.
 MembraneMaterial elastic_material(const SphereTransform& fine) {
   const auto of = [&](double mean, double amplitude, unsigned seed) -> Vector {
     Vector coefficients = smooth_coefficients(kElasticDegree, 3, 1, seed).col(0);
@@ -28,7 +28,7 @@ MembraneMaterial elastic_material(const SphereTransform& fine) {
   return material;
 }
 
-/// Shape (33), the asymmetric one and a sphere have the same material points.
+/// Membrane with this material; κ_B and c at given (θ, φ) are the same for every shape.
 struct ElasticMembrane {
   Space space{kElasticDegree};
   Matrix position;
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(the_force_is_minus_the_gradient_of_the_energy) {
 }
 
 BOOST_AUTO_TEST_CASE(sliding_material_along_a_sphere_costs_energy) {
-  // The shape stays, to first order in the displacement: all of the slope is that of the tangential part.
+  // To first order in the displacement the shape is unchanged: the whole slope comes from the tangential part.
   const ElasticMembrane one(sphere(kElasticDegree));
   const Matrix force = elastic_force(one.membrane);
   const Vector3 axis(0.3, -0.5, 0.8);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int prolate_order = 24;
 
-/// The 2:1 prolate with the field along its axis.
+/// The 2:1 prolate in a field along its axis.
 struct ProlateInField {
   Space space{prolate_order};
   Membrane membrane = make_membrane(space, prolate(prolate_order), kLaplaceLayers);

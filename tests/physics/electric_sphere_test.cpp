@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(fluxes_charge_and_potentials_are_exact_at_every_conductivit
 }
 
 BOOST_AUTO_TEST_CASE(currents_balance_to_the_last_digits_at_every_conductivity_ratio) {
-  // σ_i ∂φ_i/∂n = σ_e ∂φ_e/∂n holds although the fluxes differ by eight orders.
+  // σ_i ∂φ_i/∂n = σ_e ∂φ_e/∂n holds although the fluxes differ by eight orders of magnitude.
   for (const double ratio : kRatios) {
     const ElectricParameters electric = field_along_z(ratio);
     const ElectricTraces traces = solve_traces(electric, membrane, dipole(0.7));
@@ -73,8 +73,8 @@ BOOST_AUTO_TEST_CASE(equal_conductivities_leave_the_field_alone_without_membrane
 }
 
 BOOST_AUTO_TEST_CASE(maxwell_stress_is_the_one_worked_out_by_hand) {
-  // σ_i : σ_e = 1 : 2, E = 1, V_m = 0: inside the field is 6/5 ẑ; outside it is 3/5 cos θ normal and −6/5 sin θ
-  // along e_θ. f_E = [[E_n E − ½|E|² n]]: normal 27/50 cos² θ, tangential −18/25 sin θ cos θ.
+  // σ_i : σ_e = 1 : 2, E = 1, V_m = 0: the field inside is 6/5 ẑ; outside its components are 3/5 cos θ along n and −6/5
+  // sin θ along e_θ. f_E = [[E_n E − ½|E|² n]]: normal 27/50 cos² θ, tangential −18/25 sin θ cos θ.
   const double permittivity = 1.5;
   const ElectricParameters electric{{0.0, 0.0, 1.0}, 1.0, 2.0, permittivity};
   const Matrix force = electric_force(permittivity, membrane, solve_traces(electric, membrane, dipole(0.0)));
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(maxwell_stress_is_the_one_worked_out_by_hand) {
 }
 
 BOOST_AUTO_TEST_CASE(permittivity_ratio_scales_the_stress_inside_alone) {
-  // Inside the field is E = 6/5 ẑ: each unit of ε_i adds E_n E − ½ E² n.
+  // The field inside is E = 6/5 ẑ: each unit of ε_i adds E_n E − ½ E² n.
   const ElectricParameters electric{{0.0, 0.0, 1.0}, 1.0, 2.0, 1.0};
   const ElectricTraces traces = solve_traces(electric, membrane, dipole(0.0));
   const Matrix added = electric_force(1.0, membrane, traces, 3.0) - electric_force(1.0, membrane, traces);
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(permittivity_ratio_scales_the_stress_inside_alone) {
 }
 
 BOOST_AUTO_TEST_CASE(poorly_conducting_interior_is_compressed_along_the_field) {
-  // The force on the fluid is −f_E: inwards at the poles, as in the prolate-to-oblate Example 2.
+  // The force on the fluid is −f_E: it points inwards at the poles, as in the prolate-to-oblate Example 2.
   const ElectricParameters electric{{0.0, 0.0, 1.0}, 1.0, 2.0, 1.0};
   const Matrix force = electric_force(1.0, membrane, solve_traces(electric, membrane, dipole(0.0)));
   const Vector outwards = -row_dot(force, membrane.surface.normal);

@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(errors_and_iterations_reach_the_published_figures) {
   const std::vector<PointSource> sources = read_sources();
   BOOST_REQUIRE(sources.size() == 6u);
   for (const Target& target : {Target{12, 1.7e-3, 7e-3}, {16, 3.0e-4, 7e-4}, {24, 1.5e-5, 4e-5}, {32, 8e-7, 1.3e-6}}) {
-    // Products on the grid of order p, as in the figures of the paper.
+    // Products are formed on the grid of order p, as in the figures of the paper.
     const Space space(target.order, 1);
     const Membrane membrane = make_membrane(space, shape_33(target.order), kLaplaceLayers);
     const PointSourceErrors errors = point_source_errors(kElectric, sources, membrane, 1e-10);
@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(errors_and_iterations_reach_the_published_figures) {
 }
 
 BOOST_AUTO_TEST_CASE(sources_obey_the_jump_conditions_on_the_sphere) {
-  // One source at the centre: φ_e = s/(4πr), nothing inside.
+  // One source at the centre: φ_e = s/(4πr) and φ_i = 0.
   const Space space(8);
   const Surface surface = make_surface(space.fine, sphere(8, 2.0));
   const PointSourceFields fields = point_source_fields({{Vector3::Zero(), 3.0, true}}, surface);

@@ -25,7 +25,7 @@ struct EffectFixture : AsymmetricMembrane {
   }
 };
 
-/// κ_B ∫ (H − c)² dA.
+/// Energy κ_B ∫ (H − c)² dA.
 double energy(const Space& space, const Matrix& x, double modulus, double c) {
   const Surface s = make_surface(space.fine, x);
   return modulus * (s.mean_curvature.array() - c).square().matrix().dot(s.quadrature);

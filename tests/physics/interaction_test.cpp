@@ -13,12 +13,12 @@ using namespace vehd::testing;
 
 BOOST_AUTO_TEST_SUITE(interaction)
 
-// Outside a membrane that holds all sources, φ = D[φ] − S[∂φ/∂n].
+// Outside a membrane that encloses all sources, φ = D[φ] − S[∂φ/∂n].
 BOOST_AUTO_TEST_CASE(potential_and_flux_of_sources_within_others_follow_from_their_traces) {
   struct Row {
     double gap, error, flux_error;
   };
-  // What degree 20 leaves out of the field of another membrane that is as near.
+  // Truncation to degree 20 limits the accuracy of the field of another membrane at this gap.
   for (const auto& [gap, most, most_of_flux] : {Row{0.05, 1e-6, 2e-4}, Row{0.5, 1e-7, 2e-5}, Row{3.0, 1e-9, 2e-7}}) {
     const int order = 20;
     const Matrix one = asymmetric_shape(order);
@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(potential_and_flux_of_sources_within_others_follow_from_the
   }
 }
 
-// Nine on a lattice, some of them too near for expansions; two alone have none.
+// Nine membranes on a lattice, some pairs too near for expansions; two membranes use no expansions.
 BOOST_AUTO_TEST_CASE(many_membranes_are_the_sums_of_their_pairs) {
   constexpr int kOrder = 6;
   constexpr std::size_t kCount = 9;
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(many_membranes_are_the_sums_of_their_pairs) {
     }
     for (std::size_t a = 0; a < kCount; ++a) BOOST_TEST(relative_difference(found[a], exact[a]) < most);
   };
-  // The rules are exact beside the densities; the fluxes that these make on others are a tenth of them.
+  // The rules are accurate relative to the densities; the fluxes induced on other membranes are a tenth of those.
   using Scalars = std::vector<Vector>;
   using Vectors = std::vector<Matrix>;
   check(1e-9, scalars, [](const Interaction& i, const Scalars& f) { return i.single_potential(f); });

@@ -11,7 +11,7 @@ using namespace vehd;
 
 namespace {
 
-/// As published for cells: DeBruin and Krassowska 1999, and a steep porosity.
+/// Reactions published for cells (DeBruin and Krassowska 1999), and one with a steep porosity.
 std::vector<std::shared_ptr<const PorationReaction>> published_reactions() {
   const double conductance = pore_conductance(0.8e-9, 5e-9, 0.1);
   return {std::make_shared<PoreDensity>(PoreParameters{1e9, 0.258, 1.5e9, 2.46, conductance}),

@@ -25,7 +25,7 @@ struct TensionFixture : AsymmetricMembrane {
 BOOST_FIXTURE_TEST_SUITE(tension_effect, TensionFixture)
 
 BOOST_AUTO_TEST_CASE(force_is_minus_the_gradient_of_the_energy_of_frozen_tension) {
-  // E = ∫λ dA with λ carried by the material.
+  // E = ∫λ dA for a λ that moves with the material.
   const Vector lambda = space.fine.synthesize(tension);
   const auto energy = [&](const Matrix& x) { return lambda.dot(make_surface(space.fine, x).quadrature); };
   const Matrix force = tension_force(membrane, tension);
@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(force_is_minus_the_gradient_of_the_energy_of_frozen_tension
 }
 
 BOOST_AUTO_TEST_CASE(positive_tension_pulls_a_sphere_inwards) {
-  // Young and Laplace: 2λ/R towards the centre.
+  // Young–Laplace law: the force is 2λ/R towards the centre.
   const double radius = 1.6;
   const Membrane round = make_membrane(space, sphere(tension_order, radius), {});
   const Vector uniform = 0.8 * std::sqrt(4.0 * std::numbers::pi) * harmonic(tension_order, 0, 0);

@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(tension_is_the_inverse_of_area_with_each_part_of_the_law) {
     const AreaLaw law(membrane);
     for (const double tension : {-0.7, -1e-3, 0.0, 0.1, 10.0, 1e4, 1e6}) {
       const double error = law.tension(law.area(tension)) - tension;
-      // What one rounding of the area is worth.
+      // Change of tension caused by one rounding of the area.
       const double rounding = 1e-15 * law.area(tension) / law.slope(tension);
       BOOST_TEST(std::abs(error) <= 1e-12 * std::abs(tension) + 4.0 * rounding, tension << ": " << error);
     }

@@ -32,8 +32,8 @@ Matrix3 general_gradient() {
   return gradient;
 }
 
-/// Largest error where the same flow, driven by a point force far away, fills both fluids: the membrane must supply the
-/// difference of the tractions, f = (ratio − 1) t.
+/// Largest error for a flow, driven by a distant point force, that is the same in both fluids: the membrane must supply
+/// the difference of the tractions, f = (ratio − 1) t.
 double common_flow_error(const Layered& g, double ratio) {
   const PointForce flow = point_force(g.surface, {2.4, 1.1, -1.6}, {0.7, -0.4, 0.6});
   const Matrix background = g.space.fine.analyze(flow.velocity);
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(spheres_have_the_closed_spectrum_at_every_ratio) {
   }
 }
 
-// Drop of Taylor without surface tension: the strain E x is slowed to 5/(3 + 2 ratio) E x, the rotation is not.
+// Taylor's drop without surface tension: the strain E x is slowed to 5/(3 + 2 ratio) E x, the rotation is unchanged.
 BOOST_AUTO_TEST_CASE(spherical_drop_in_linear_flow_strains_by_the_law_of_taylor) {
   const Layered g(8, sphere(8, 1.3));
   const Matrix3 gradient = general_gradient();
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(spherical_drop_in_linear_flow_strains_by_the_law_of_taylor)
   }
 }
 
-// Rotation of a torque-free rigid ellipsoid (Jeffery).
+// Angular velocity of a torque-free rigid ellipsoid (Jeffery).
 BOOST_AUTO_TEST_CASE(very_viscous_ellipsoid_moves_as_a_rigid_one) {
   const Vector3 axes(1.0, 0.8, 1.6);
   const Matrix3 a = general_gradient();
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(very_viscous_ellipsoid_moves_as_a_rigid_one) {
   const Layered fine(16, ellipsoid(16, axes));
   BOOST_TEST(error(fine, 1e12) < 1e-2 * error(coarse, 1e12));
   BOOST_TEST(error(fine, 1e12) < 1e-6);
-  // What is left at a large ratio is the fluid's own deformation.
+  // At a large ratio the remaining difference is the deformation of the inner fluid.
   BOOST_TEST(error(fine, 1e3) < 1e-2);
   BOOST_TEST(error(fine, 1e3) > 1e-4);
 }

@@ -45,7 +45,7 @@ struct PointField {
   Vector3 field = Vector3::Zero();
 };
 
-/// Potential and −∇φ of the sources on one side at a point of the other.
+/// Potential and −∇φ at a point on one side, due to the sources on the other side.
 PointField exact_point_field(const Vector3& x, bool inside) {
   PointField result;
   for (const PointSource& source : kSources) {
@@ -103,7 +103,7 @@ struct Example1 {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(sphere_in_a_uniform_field_has_the_potential_and_field_of_its_dipole) {
-  // φ_i = −a z, φ_e = (b/r³ − E) z with V_m = V cos θ; see electric_sphere.
+  // φ_i = −a z, φ_e = (b/r³ − E) z with V_m = V cos θ, as derived in electric_sphere.
   constexpr int kOrder = 12;
   const Space space(kOrder);
   const Matrix position = sphere(kOrder);
@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(samples_on_the_membrane_are_the_traces) {
   const Vector phi_out = evaluate_harmonics(traces.potential_out, angles.theta, angles.phi);
   BOOST_TEST(max_difference(in.potential, phi_in) < 2e-6);
   BOOST_TEST(max_difference(out.potential, phi_out) < 2e-6);
-  // −∂φ/∂n by the conductivities: σ_i E_i·n = σ_e E_e·n.
+  // The values −∂φ/∂n satisfy σ_i E_i·n = σ_e E_e·n.
   const Vector normal_in = row_dot(in.field, points.normal);
   const Vector normal_out = row_dot(out.field, points.normal);
   BOOST_TEST(relative_difference(electric.conductivity_in * normal_in, electric.conductivity_out * normal_out) < 1e-3);
@@ -225,7 +225,7 @@ BOOST_AUTO_TEST_CASE(absent_charge_and_membrane_potential_leave_the_applied_fiel
 }
 
 BOOST_AUTO_TEST_CASE(translating_sphere_makes_the_flow_of_stokes_in_a_background_flow) {
-  // u = F/(6πμR) inside; outside F·[(I + r̂r̂)/r + R²(I − 3r̂r̂)/(3r³)]/(8πμ).
+  // u = F/(6πμR) inside and F·[(I + r̂r̂)/r + R²(I − 3r̂r̂)/(3r³)]/(8πμ) outside.
   const double radius = 1.4;
   const double viscosity = 2.5;
   const Matrix position = sphere(8, radius);
@@ -260,7 +260,7 @@ BOOST_AUTO_TEST_CASE(translating_sphere_makes_the_flow_of_stokes_in_a_background
 }
 
 BOOST_AUTO_TEST_CASE(translating_prolate_carries_its_fluid_along_up_to_the_membrane) {
-  // The density (x·n) e moves the 2:1 prolate as a rigid body, see translating_prolate; J x·n is constant.
+  // The density (x·n) e moves the 2:1 prolate as a rigid body (translating_prolate_test.cpp); J x·n is constant.
   constexpr int kOrder = 24;
   const double eccentricity = std::sqrt(0.75);
   const double e2 = 0.75;
@@ -281,8 +281,8 @@ BOOST_AUTO_TEST_CASE(translating_prolate_carries_its_fluid_along_up_to_the_membr
   }
 }
 
-// The flow of a point force far away fills both fluids where the membrane supplies the difference of the tractions,
-// f = (Λ − 1) t.
+// The flow of a distant point force is the same in both fluids if the membrane supplies the difference of the
+// tractions, f = (Λ − 1) t.
 BOOST_AUTO_TEST_CASE(flow_common_to_two_fluids_is_found_inside_on_and_outside_the_membrane) {
   const Vector3 far(2.4, 1.1, -1.6), force(0.7, -0.4, 0.6);
   const auto exact_at = [&](const Vector3& x) -> Vector3 {

@@ -37,8 +37,8 @@ BOOST_AUTO_TEST_CASE(the_nearest_point_of_an_ellipsoid_is_found_between_nodes) {
   BOOST_TEST((found.place - lowest).norm() < 1e-7);
 }
 
-// Mirrors that leave the wall, turns about its normal, all turns. On a grid of 9 x 18 nodes mirrors leave 5 x 10: those
-// in their planes are their own images.
+// Mirrors that preserve the wall, rotations about its normal, all rotations. On a grid of 9 x 18 nodes mirrors reduce
+// the targets to 5 x 10: nodes in a mirror plane are their own images.
 BOOST_AUTO_TEST_CASE(layers_at_nodes_that_symmetries_relate_follow_from_one_of_them) {
   constexpr int kOrder = 8;
   const Space space(kOrder);
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(layers_at_nodes_that_symmetries_relate_follow_from_one_of_t
   }
 }
 
-// Beside an insulating wall, an electrode and a stress-free wall all layers are those of two mirrored membranes.
+// Beside an insulating wall, an electrode or a stress-free wall all layers equal those of two mirrored membranes.
 BOOST_AUTO_TEST_CASE(layers_are_those_of_mirrored_membranes) {
   constexpr int kOrder = 10;
   const Space space(kOrder);
@@ -111,8 +111,8 @@ BOOST_AUTO_TEST_CASE(layers_are_those_of_mirrored_membranes) {
   }
 }
 
-// Of a flow u that is regular within the membrane, with traction t, S[t] − D[u] vanishes outside: that of its image
-// does on the membrane, whatever the wall.
+// For a flow u, regular within the membrane, with traction t, S[t] − D[u] vanishes outside. The same combination of its
+// images vanishes on the membrane, for every wall.
 BOOST_AUTO_TEST_CASE(images_without_slip_obey_greens_identity) {
   constexpr int kOrder = 20;
   const Space space(kOrder);

@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(burst_alternates_while_it_lasts) {
   BOOST_TEST(!burst.next_discontinuity(5.0).has_value());
   BOOST_TEST(burst.is_quiet(0.0));
   BOOST_TEST(burst.is_quiet(5.0));
-  // Zero here and at its end, and not between.
+  // The value is zero here and at the end of the burst, but not in between.
   BOOST_TEST(!Waveform::burst(1.0, 0.5, -std::numbers::pi / 2.0, 0.0, 4.0).is_quiet(0.0));
 }
 

@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(values_of_both_signs_have_a_range_about_zero) {
   BOOST_TEST(!one.both_signs);
   BOOST_TEST(one.lower == 0.5);
   BOOST_TEST(one.upper == 2.0);
-  // Hardly anything below zero: two colours of it would take half of the others.
+  // Hardly any value is negative: a diverging map would leave only half of the colours to the others.
   BOOST_TEST(!range_of(Vector::LinSpaced(101, -0.05, 2.0)).both_signs);
 }
 
@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(constants_have_a_range_too) {
   BOOST_TEST(range_of(Vector::Constant(5, not_a_number)).upper == 1.0);
 }
 
-// Found: a value of 1e-15 counted as nothing, in whatever units.
+// Regression: a value of 1e-15 was treated as zero, whatever the units.
 BOOST_AUTO_TEST_CASE(the_range_goes_with_the_unit) {
   const Vector values = Vector::LinSpaced(101, 0.5, 2.0);
   for (const double scale : {1e-30, 1e-15, 1e12}) {
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(the_first_instants_do_not_take_the_colours_from_all_others)
   BOOST_TEST(range.upper == 2.0);
   BOOST_TEST(range.below);
   BOOST_TEST(range.above);
-  // A twentieth of a few is none.
+  // A twentieth of a few times is less than one of them.
   times.resize(6);
   BOOST_TEST(robust_range(times, false).upper == 500.0);
 }

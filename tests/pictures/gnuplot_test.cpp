@@ -10,7 +10,7 @@
 
 namespace {
 
-/// The bytes that gnuplot has for a quoted text.
+/// Bytes that gnuplot reads from a quoted text.
 std::string read_back(const std::string& text) {
   const TemporaryDirectory directory;
   vehd::draw_with_gnuplot("set print 'picture'\nprint " + vehd::gnuplot_quoted(text) + "\n",
@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(a_quoted_text_is_read_back_byte_for_byte) {
   }
 }
 
-/// What an XML reader finds written in a picture: the texts of all its elements.
+/// Texts of all elements of a picture, as an XML reader finds them.
 std::string texts_of_svg(const std::string& file) {
   const TemporaryDirectory directory;
   const vehd::ChildEnd end = vehd::run_child({{"python3", "-c",

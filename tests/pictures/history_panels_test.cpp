@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(drifts_are_shown_where_they_matter) {
   BOOST_TEST(!shows(panels(Scene(), start + "1e-9,1e-9,1e-4\n"), "area"));
   BOOST_TEST(shows(panels(Scene(), start + "-2e-6,1e-9,1e-4\n"), "area"));
   BOOST_TEST(shows(panels(Scene(), start + "1e-9,1e-9,0.02\n"), "local strain"));
-  // No flow turns the shape.
+  // There is no flow that could turn the shape.
   BOOST_TEST(!shows(panels(Scene(), start + "0,0,0\n"), "inclination"));
 }
 
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(curves_have_the_errors_of_their_columns) {
     return HistoryTable(stream, "history.csv");
   };
   const HistoryTable history = table("0,0,15,1,nan,nan,2,2,4,0,0,0,0\n1,1,14,1,nan,nan,2,2,3,5,1e-12,0,1e-9\n");
-  // The errors of a run that was interrupted end earlier.
+  // The error history of an interrupted run ends earlier.
   const HistoryTable errors = table("0,0,0.5,0,nan,nan,0.1,0.2,0.3,0,0,0,0\n");
   const auto quantities = history_quantities(Scene(), history, &errors);
   const auto extents = std::ranges::find(quantities, "extent", &HistoryQuantity::label);

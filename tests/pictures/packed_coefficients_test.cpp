@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(numbers_are_parts_of_the_largest_of_their_component_and_tim
   packed.add(coefficients);
   const nlohmann::json json = packed.json();
   BOOST_TEST(json["scale"] == nlohmann::json::parse("[[2.0, 0.0]]"));
-  // 32767, −16384 (−16383.5 is halfway and goes away from zero), 0, 1 and four zeros, low bytes first.
+  // 32767, −16384 (−16383.5 is rounded away from zero), 0, 1 and four zeros, low bytes first.
   const std::array<std::uint8_t, 16> bytes{0xff, 0x7f, 0x00, 0xc0, 0x00, 0x00, 0x01, 0x00};
   BOOST_TEST(json["data"] == vehd::base64(bytes));
   BOOST_TEST(vehd::packed_bytes(1) == 4 * 2 * 4 / 3);

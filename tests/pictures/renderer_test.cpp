@@ -29,7 +29,7 @@ RenderMesh sphere_mesh() {
   return mesh;
 }
 
-/// Pixels that are not paper.
+/// Number of pixels that are not background.
 int covered(const Image& image) {
   int count = 0;
   for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(a_cut_shows_the_inside_and_its_edge_is_a_circle) {
   const Image whole = render(mesh, ColourMap::diverging(), {view, 20.0, 100, 100});
   const Image cut = render(mesh, ColourMap::diverging(), {view, 20.0, 100, 100, true});
   BOOST_TEST(covered(cut) == covered(whole), boost::test_tools::tolerance(0.02));
-  // Paler than the dark red outside.
+  // The inside is paler than the dark red outside.
   const std::size_t middle = (50 * 100 + 50) * 3;
   BOOST_TEST(int{cut.rgb[middle + 1]} > int{whole.rgb[middle + 1]} + 30);
   const Matrix lines = cut_lines(mesh, view);

@@ -8,7 +8,7 @@ using namespace vehd;
 
 namespace {
 
-/// n times and a shape that is told by one number.
+/// n times and a shape that is described by one number.
 struct Course {
   std::vector<double> times;
   Matrix rows;
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(times_ascend_from_the_first_to_the_last) {
 BOOST_AUTO_TEST_CASE(they_lie_where_the_shape_changes) {
   const Course sudden(201, [](double t) { return 1.0 + 0.5 * std::tanh(4.0 * (t - 10.0)); });
   const auto chosen = sudden.chosen(6);
-  // Four of six within the change, which takes a twentieth of the time.
+  // Four of the six times lie within the change, which takes a twentieth of the time.
   BOOST_TEST(std::ranges::count_if(chosen, [](std::size_t i) { return std::abs(0.1 * double(i) - 10.0) < 1.0; }) == 4);
   const Course steady(201, [](double t) { return 1.0 + t; });
   BOOST_TEST(steady.chosen(5) == (std::vector<std::size_t>{0, 50, 100, 150, 200}));

@@ -23,7 +23,7 @@ std::vector<std::pair<std::string, Box>> parts_of(const ShapesLayout& layout, do
   return parts;
 }
 
-/// The same part less what rounding may shift it.
+/// The part without a margin for rounding errors.
 Box shrunk(const Box& box) { return {box.left + 1e-6, box.bottom + 1e-6, box.right - 1e-6, box.top - 1e-6}; }
 
 }  // namespace
@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(no_part_meets_another_or_leaves_the_page) {
         for (const double bar_width : {0.0, 45.0}) {
           for (const auto& key : keys) {
             for (const double page_width : {300.0, 510.0}) {
-              // Shapes become lower and wider, as those in a field do.
+              // Shapes become lower and wider, as they do in a field.
               std::vector<std::array<double, 2>> extents;
               for (std::size_t i = 0; i < n_shapes; ++i) {
                 const double change = 1.0 + 0.2 * static_cast<double>(i);
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(the_page_is_as_wide_as_it_may_be_at_most) {
     const std::vector<std::array<double, 2>> extents(n_shapes, {2.0, 1.0});
     const ShapesLayout layout = layout_of({extents, 40.0, {50.0, 46.0, 26.0}, 60.0, 45.0, 510.0});
     BOOST_TEST(layout.width <= 511.0);
-    // Shapes, not white, fill it.
+    // Shapes, not white space, fill the page.
     BOOST_TEST(layout.cells.front().width() * static_cast<double>(n_shapes) > 0.2 * layout.width);
   }
 }

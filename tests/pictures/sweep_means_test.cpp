@@ -11,7 +11,7 @@ BOOST_AUTO_TEST_SUITE(sweep_means)
 
 namespace {
 
-/// What vehd sweep leaves of runs over a fraction, a field and a seed; one stopped.
+/// Files of a sweep over a fraction, a field and a seed; some runs stopped early.
 struct Table {
   TemporaryDirectory directory;
 
@@ -49,9 +49,9 @@ BOOST_AUTO_TEST_CASE(runs_that_differ_in_a_seed_are_one_mean_with_its_standard_e
   BOOST_TEST(means[0].values == (std::vector<std::string>{"0.1", "0"}), boost::test_tools::per_element());
   BOOST_TEST(means[0].n_runs == 3);
   BOOST_TEST(std::abs(means[0].mean - 2.5) < 1e-12);
-  // Squares 0.25 + 0.01 + 0.16 over 2 and 3.
+  // Squared deviations 0.25 + 0.01 + 0.16, divided by 2 and by 3.
   BOOST_TEST(std::abs(means[0].error - std::sqrt(0.07)) < 1e-12);
-  // What stopped does not count.
+  // Stopped runs do not count.
   BOOST_TEST(means[1].n_runs == 1);
   BOOST_TEST(means[1].mean == 3.0);
   BOOST_TEST(std::isnan(means[1].error));

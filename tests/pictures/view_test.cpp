@@ -46,12 +46,12 @@ BOOST_AUTO_TEST_CASE(axes_lie_as_they_are_drawn) {
 }
 
 BOOST_AUTO_TEST_CASE(the_default_looks_across_the_plane_of_flow_and_field) {
-  // Of shear and planar extension, x and z.
+  // Shear and planar extension lie in the plane of x and z.
   BOOST_TEST((default_view(with_flow(FlowKind::shear), sphere) - parse_view("y")).norm() < 1e-12);
   BOOST_TEST((default_view(with_flow(FlowKind::planar_extension), sphere) - parse_view("y")).norm() < 1e-12);
   BOOST_TEST((default_view(with_field({0.0, 0.0, 1.0}), sphere) - parse_view("y")).norm() < 1e-12);
   BOOST_TEST((default_view(with_field({0.0, 5.0, 0.0}), sphere) - parse_view("z")).norm() < 1e-12);
-  // Both span a plane that is across no axis.
+  // Flow and field span a plane that is normal to no axis.
   Scene both = with_field({0.0, 1.0, 1.0});
   both.flow = with_flow(FlowKind::poiseuille).flow;
   const Vector3 seen_from = eye(default_view(both, sphere));

@@ -21,7 +21,7 @@ Matrix random_points(Index n, unsigned seed) {
   return points / std::sqrt(3.0);  // within the unit ball
 }
 
-/// Forces at points about a centre, with the sums of which the moments are made.
+/// Forces at points about a centre, with their moments.
 struct Cloud {
   Vector3 centre;
   Matrix points, forces;
@@ -34,7 +34,7 @@ struct Cloud {
     moments = translation.turnable(vehd::moments(regular_harmonics(points, kHighest).transpose() * charges));
   }
 
-  /// Σ f/|x − y| of the forces and of (y − origin)·f.
+  /// Sums Σ f/|x − y| over the forces and over (y − origin)·f.
   [[nodiscard]] Eigen::RowVector4d at(const Vector3& x) const {
     Eigen::RowVector4d sum = Eigen::RowVector4d::Zero();
     for (Index i = 0; i < points.rows(); ++i) {
@@ -45,7 +45,7 @@ struct Cloud {
   }
 };
 
-/// In all directions, the axis and its plane among them; more than are turned at once.
+/// Centres in all directions, including the axis and its normal plane; more than are rotated in one batch.
 std::vector<Vector3> centres(double distance) {
   std::vector<Vector3> result{{0, 0, distance}, {0, 0, -distance}, {distance, 0, 0}, {0, -distance, 0}};
   const Matrix directions = random_points(33, 7);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kOrder = 8;
 
-/// Shapes without symmetry, of different sizes; the fourth is near to the first, the last one as near as may be.
+/// Shapes without symmetry, of different sizes; the fourth is near the first, the last as near as expansions allow.
 std::vector<Matrix> shapes() {
   const Matrix shape = asymmetric_shape(kOrder);
   return {shape, translated(0.6 * shape * general_rotation().transpose(), {6.0, -5.0, 4.0}),
@@ -33,7 +33,7 @@ std::vector<ExpandedMembrane> expanded(const std::vector<Matrix>& positions, dou
   return result;
 }
 
-/// Directly: the sum over all that are far of what `layer` makes at the points.
+/// Direct sum of `layer` over all far membranes at the points.
 template <class Layer>
 std::vector<Matrix> direct(const std::vector<ExpandedMembrane>& all, const FarExpansions& far, const Layer& layer) {
   std::vector<Matrix> values(all.size());

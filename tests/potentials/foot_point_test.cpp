@@ -14,7 +14,7 @@ using namespace vehd::testing;
 
 namespace {
 
-/// A unit vector 0.1 rad away from the direction of the angles.
+/// Unit vector 0.1 rad away from the direction of the angles.
 Vector3 start_near(double theta, double phi) {
   return {std::sin(theta + 0.1) * std::cos(phi), std::sin(theta + 0.1) * std::sin(phi), std::cos(theta + 0.1)};
 }
@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(stretches_describe_the_distance_around_the_foot_point) {
     BOOST_TEST(std::abs(foot.smallest_stretch - std::sqrt(radius * (radius + height))) < 1e-13);
     BOOST_TEST(std::abs(foot.largest_stretch - std::sqrt(radius * (radius + height))) < 1e-13);
   }
-  // Axes 1, 1, 2 at the equator: tangents of length 2 and 1.
+  // Axes 1, 1, 2 at the equator: the tangents have lengths 2 and 1.
   const FootPoint foot = find_foot_point(prolate(6), Vector3(1.0, 0.1, 0.1).normalized(), {1.0, 0.0, 0.0});
   BOOST_TEST(std::abs(foot.smallest_stretch - 1.0) < 1e-13);
   BOOST_TEST(std::abs(foot.largest_stretch - 2.0) < 1e-13);

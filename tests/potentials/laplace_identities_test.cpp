@@ -25,7 +25,7 @@ double green_error(const Layered& g, const Vector3& source, double side) {
   return relative_difference(g.space.fine.synthesize(representation), 0.5 * side * phi.value);
 }
 
-/// Errors at p = 32 below the bound and three orders below those at p = 8, for a source on either side.
+/// Requires errors at p = 32 below the bound and three orders below those at p = 8, for a source on either side.
 void require_green_convergence(Matrix (*shape)(int), double bound) {
   const Layered coarse(8, shape(8));
   const Layered fine(32, shape(32));

@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(poles_are_no_special_points) {
   BOOST_TEST((found.on_second - Vector3(0.0, 0.0, 0.25)).norm() < 1e-9);
 }
 
-// Order of the two points: the second is behind the first membrane.
+// The points are in reversed order: the second lies inside the first membrane.
 BOOST_AUTO_TEST_CASE(membranes_that_meet_have_no_gap) {
   const Matrix shape = sphere(8);
   BOOST_TEST(nearest_points(shape, translated(shape, {1.9, 0.0, 0.0})).gap < 1e-6);

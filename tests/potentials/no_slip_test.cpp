@@ -11,14 +11,14 @@ BOOST_AUTO_TEST_SUITE(no_slip)
 
 namespace {
 
-/// Above the plane z = 0 unless it is turned.
+/// A no-slip wall with the fluid above it: z = 0 unless rotated.
 struct Plane {
   Vector3 point = Vector3::Zero(), normal = Vector3::UnitZ();
 
   [[nodiscard]] double height(const Vector3& x) const { return normal.dot(x - point); }
   [[nodiscard]] Vector3 mirrored(const Vector3& v) const { return v - 2.0 * normal.dot(v) * normal; }
   [[nodiscard]] MirroredTarget target(const Vector3& x) const { return {normal, height(x)}; }
-  /// X − y.
+  /// Separation X − y from the mirror image X of x.
   [[nodiscard]] Vector3 separation(const Vector3& x, const Vector3& y) const {
     return x - 2.0 * height(x) * normal - y;
   }
@@ -30,7 +30,7 @@ struct Plane {
     const auto image = no_slip_flow(target(x), s[0], s[1], s[2], 1.0 / s.norm(), f[0], f[1], f[2]);
     return Vector3(free.data()) + mirrored(Vector3(image.data()));
   }
-  /// That of the kernel of the double layer, times 4π/3.
+  /// Kernel of the double layer with its image, times 4π/3.
   [[nodiscard]] Vector3 of_velocity(const Vector3& x, const Vector3& y, const Vector3& area, const Vector3& v) const {
     const Vector3 r = x - y, s = separation(x, y);
     const auto free = stokes_double_flow(r[0], r[1], r[2], r.dot(area), 1.0 / r.norm(), v[0], v[1], v[2]);
@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(nothing_moves_on_the_plane) {
   }
 }
 
-// The work of one force on the flow of another is that of the other on the flow of the one.
+// Reciprocity: g·u[f] at x equals f·u[g] at y.
 BOOST_AUTO_TEST_CASE(forces_are_reciprocal) {
   Points points;
   const Plane plane{points.any(), points.any().normalized()};
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(forces_are_reciprocal) {
   }
 }
 
-// With tr Q = 0 the kernel of the double layer, 3/(4π) of it, is twice the force dipole ∂G_ij/∂y_k Q_jk over 8π.
+// If tr Q = 0, the kernel of the double layer, with prefactor 3/(4π), is twice the force dipole ∂G_ij/∂y_k Q_jk/(8π).
 BOOST_AUTO_TEST_CASE(double_layer_is_the_derivative_of_the_single_layer) {
   Points points;
   constexpr double step = 1e-5;

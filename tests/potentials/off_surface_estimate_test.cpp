@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(pressure_density_moves_no_fluid_inside_or_outside) {
 }
 
 BOOST_AUTO_TEST_CASE(estimate_bounds_the_error) {
-  // The true error of a smooth density on a sphere is that of the quadrature alone.
+  // For a smooth density on a sphere the true error is the quadrature error.
   constexpr int kOrder = 12;
   const Matrix position = sphere(kOrder);
   const Vector y = harmonic(kOrder, 5, 2);
@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(estimate_bounds_the_error) {
 }
 
 BOOST_AUTO_TEST_CASE(sheets_closer_than_the_nodes_are_told_apart) {
-  // A disc of half thickness t with the poles of its grid elsewhere: nodes of its two sheets face gaps of each other.
+  // A disc of half thickness t with the grid poles off its axis: nodes of one sheet face gaps of the other.
   constexpr int kOrder = 16;
   const double t = 0.01;
   LayerDensities densities;

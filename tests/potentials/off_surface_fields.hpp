@@ -47,7 +47,7 @@ struct ScalarAndGradient {
   Vector3 gradient;
 };
 
-/// g(r) Y with its gradient for the coefficients of Y.
+/// Value and gradient of g(r) Y for the coefficients of Y.
 inline ScalarAndGradient solid_harmonic(const Vector& y, const Radial& g, double r, double theta, double phi) {
   const PointDerivatives p = point_derivatives(y, {theta, phi});
   const Vector3 radial(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
@@ -57,7 +57,7 @@ inline ScalarAndGradient solid_harmonic(const Vector& y, const Radial& g, double
           g.derivative * p.value[0] * radial + g.value / r * (p.d1[0] * e_theta + p.d2[0] * e_phi)};
 }
 
-/// The harmonic potential of a point source, outside the membrane for the inside and the other way round, as S − D.
+/// Harmonic potential of a point source on the opposite side of the membrane, represented as S − D.
 struct PointField {
   Space space;
   Matrix position;
@@ -107,7 +107,7 @@ struct PointField {
   }
 };
 
-/// Everything at once on a shape without symmetry.
+/// Densities of all layers on a shape without symmetry.
 inline LayerDensities all_densities(int order) {
   LayerDensities d;
   d.laplace_single = smooth_coefficients(order, 6, 1, 61);

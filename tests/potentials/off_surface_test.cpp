@@ -33,8 +33,8 @@ BOOST_AUTO_TEST_CASE(layers_of_harmonics_on_a_sphere_are_exact_at_every_distance
     densities.laplace_double = y;
     densities.gradients = true;
     const OffSurfaceLayers layers(position, densities);
-    // An error of 1e-16 in the position of a target is one of 1e-6 in the side at a distance of 1e-10, none in the
-    // value.
+    // At a distance of 1e-10 a rounding error of 1e-16 in the target is a relative error of 1e-6 in the height; the
+    // value is not affected.
     for (const double height : heights(1.0)) {
       const OffSurfaceValues v = evaluate(layers, points.at_height(height));
       double error = 0.0;
@@ -96,8 +96,7 @@ BOOST_AUTO_TEST_CASE(double_layer_of_a_constant_is_the_solid_angle_and_tells_the
   }
 }
 
-// On shape (33), whose nearest nodes are not the same for all directions: D[a + b × y] is −(a + b × x) inside, 0
-// outside.
+// On shape (33), whose nearest nodes depend on the direction: D[a + b × y] is −(a + b × x) inside and 0 outside.
 BOOST_AUTO_TEST_CASE(stokes_double_layer_of_a_rigid_motion_is_the_motion_inside_and_nothing_outside) {
   const Matrix position = shape_33(16);
   const Vector3 a(0.3, -0.7, 1.1), b(-0.4, 0.9, 0.2);
@@ -188,7 +187,7 @@ BOOST_AUTO_TEST_CASE(values_agree_with_a_very_fine_smooth_rule) {
         s += dw * weighted_single(k) / r1;
         grad_s -= dw * weighted_single(k) / r3 * r;
         d += dA * f.value(k) * r.dot(n) / r3;
-        // The gradient of the kernel itself: n/r³ − 3 (r·n) r/r⁵.
+        // Gradient of the kernel: n/r³ − 3 (r·n) r/r⁵.
         grad_d += dA * f.value(k) * (n / r3 - 3.0 * r.dot(n) / (r3 * r1 * r1) * r);
         u += dw * (force / r1 + r.dot(force) / r3 * r);
         w += dA * velocity.row(k).dot(r) * r.dot(n) / (r3 * r1 * r1) * r;
@@ -243,7 +242,7 @@ BOOST_AUTO_TEST_CASE(single_layers_are_continuous_and_the_others_jump_by_their_d
   const GridAngles angles = scattered_angles(30);
   const MembranePoints points = membrane_points(position, angles);
   const OffSurfaceLayers layers(position, densities);
-  // At a distance of 1e-11 the fields themselves change by less than their errors.
+  // Over a distance of 1e-11 the fields change by less than their errors.
   const OffSurfaceValues in = evaluate(layers, points.at_height(-1e-11));
   const OffSurfaceValues out = evaluate(layers, points.at_height(1e-11));
   const Index n = angles.theta.size();
@@ -261,7 +260,7 @@ BOOST_AUTO_TEST_CASE(single_layers_are_continuous_and_the_others_jump_by_their_d
     const Vector3 area = u.cross(v);
     f[i] = d.value[0];
     charge_jump.row(i) = weighted_charge / area.squaredNorm() * area.transpose();
-    // ∇_γ f from its two defining products with the tangents.
+    // ∇_γ f is determined by its products with the two tangents.
     Matrix3 tangents;
     tangents << u.transpose(), v.transpose(), area.transpose();
     gradient_jump.row(i) = -tangents.inverse().leftCols<2>() * Eigen::Vector2d(d.d1[0], d.d2[0]);

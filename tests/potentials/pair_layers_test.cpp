@@ -21,7 +21,7 @@ namespace {
 constexpr PairSelection kEveryLayer{true, true, true, true, true, true};
 const std::vector<double> kGaps = {1e-3, 1e-2, 0.1, 0.3, 0.6, 1.0, 3.0, 10.0};
 
-/// Directions that are no normals of anything.
+/// Arbitrary unit vectors, not normals of a surface.
 Matrix any_normals(Index n) {
   Matrix normals(n, 3);
   for (Index i = 0; i < n; ++i) {
@@ -36,7 +36,7 @@ PairLayers pair_layers(const Matrix& source, const Matrix& points, const Matrix&
   return {source, points, normals, kEveryLayer, {}, transforms, instruments};
 }
 
-/// Points at every gap from the membrane, and a gap of each.
+/// Points at all gaps of kGaps from the membrane.
 Matrix points_at_all_gaps(const Matrix& position, int n) {
   const MembranePoints points = membrane_points(position, scattered_angles(n));
   Matrix all(0, 3);
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(stokes_layers_of_rigid_motions_of_a_sphere_are_exact_at_eve
   BOOST_TEST(layers.apply(PairLayer::stokes_double, motion).cwiseAbs().maxCoeff() < 1e-9);
 }
 
-// Shapes without symmetry, densities up to the degree of the membrane; the layers off the membrane take another way.
+// Shapes without symmetry, densities up to the degree of the membrane; off-surface evaluation is independent code.
 BOOST_AUTO_TEST_CASE(layers_of_given_densities_agree_with_those_off_the_membrane) {
   for (const int order : {12, 16}) {
     const Matrix position = asymmetric_shape(order);
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(layers_of_given_densities_agree_with_those_off_the_membrane
   }
 }
 
-// Outside shape (33), which holds the source, φ = D[φ] − S[∂φ/∂n], and so of its gradient.
+// Outside shape (33), which encloses the source, φ = D[φ] − S[∂φ/∂n]; the gradient satisfies the same identity.
 BOOST_AUTO_TEST_CASE(sources_within_shape_33_are_seen_at_every_gap) {
   constexpr int kOrder = 24;
   const PointField field(kOrder, shape_33(kOrder), {0.1, -0.05, 0.15}, {9.0, 0.0, 0.0});
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(sources_within_shape_33_are_seen_at_every_gap) {
     error = std::max(error, std::abs(found[i] - exact));
     slope_error = std::max(slope_error, std::abs(slope[i] + exact / r.squaredNorm() * r.dot(normals.row(i))));
   }
-  // What degree 24 leaves out of the traces.
+  // Truncation of the traces to degree 24 limits the accuracy.
   BOOST_TEST(error < 1e-9);
   BOOST_TEST(slope_error < 2e-8);
 }
@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(rows_of_far_targets_are_the_sums_of_their_rule) {
   const PairLayers rows = pair_layers(position, points, normals);
   const Vector density = smooth_coefficients(8, 8, 1, 67);
   const Matrix vectors = smooth_coefficients(8, 8, 3, 68);
-  // Room for none, for some grids, for all.
+  // Memory for no grid, for some grids and for all grids.
   for (const double bytes : {0.0, 3e5, 1e9}) {
     Instruments instruments;
     SharedTransforms transforms;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kOrder = 12, kFiner = 36, kBand = 5;
 
-/// Error of a plain operator on densities of degree kBand on a bumpy surface, over what degree kOrder cannot hold of
-/// the result: both against the surface and the densities at a much higher degree.
+/// Error of a plain operator on densities of degree kBand on a bumpy surface, relative to the part of the result above
+/// degree kOrder; both against a reference of much higher degree.
 template <typename Operator>
 double error_of(Operator LayerOperators::*layer, LayerSelection selection) {
   selection.plain = true;
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(off_the_surface_their_error_is_the_estimated_one) {
   densities.laplace_single = smooth_coefficients(kOrder, kBand, 1, 82);
   densities.stokes_single = smooth_coefficients(kOrder, kBand, 3, 83);
   densities.gradients = densities.plain = true;
-  // J f at a degree that holds it.
+  // A degree high enough to resolve J f.
   constexpr int kWeighted = 64;
   const SphereTransform transform(kWeighted, make_grid(2 * kWeighted));
   const Surface surface = make_surface(transform, resize_order(position, kWeighted));
@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(off_the_surface_their_error_is_the_estimated_one) {
   const OffSurfaceValues found = evaluate(OffSurfaceLayers(position, densities), points);
   const OffSurfaceValues expected = evaluate(
       OffSurfaceLayers(resize_order(position, kWeighted), exact, {.tolerance = 1e-11, .max_rules = 14}), points);
-  // What no rule sees of the reference: J f beyond its degree.
+  // Part of J f above the reference's degree; no quadrature rule includes it.
   constexpr double kCut = 1e-9;
   const auto check = [&](const LayerField& of_plain, const LayerField& reference) {
     for (Index i = 0; i < points.rows(); ++i) {

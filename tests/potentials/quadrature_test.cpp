@@ -11,7 +11,7 @@ using namespace vehd::testing;
 
 namespace {
 
-/// Results of all layers on smooth densities, side by side.
+/// Results of all layers on smooth densities, in adjacent columns.
 Matrix results(const LayerOperators& layers, const Matrix& density) {
   Matrix all(density.rows(), 6);
   all << layers.laplace_single.apply(density.col(0)), layers.laplace_double.apply(density.col(1)),
@@ -19,7 +19,7 @@ Matrix results(const LayerOperators& layers, const Matrix& density) {
   return all;
 }
 
-/// What a rotated parametrisation changes in the results.
+/// Change of the results under a rotation of the parametrisation.
 double pole_dependence(int order) {
   const Space space(order);
   const Matrix3 rotation = general_rotation();

@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(laplace_layers_have_the_eigenvalues_of_the_unit_sphere) {
   }
 }
 
-// So many latitudes are analysed in parts.
+// At this order the latitudes are analysed in several blocks.
 BOOST_AUTO_TEST_CASE(single_layer_has_its_eigenvalues_at_order_64) {
   const Space space(64);
   const LayerSelection single{.laplace_single = true};

@@ -28,7 +28,7 @@ double green_error(const Layered& g, const Vector3& source, double side) {
   return relative_difference(g.space.fine.synthesize(representation), 0.5 * side * flow.velocity);
 }
 
-/// a + b × x.
+/// Coefficients of the rigid motion a + b × x.
 Matrix rigid_motion(const Matrix& position, const Vector3& a, const Vector3& b) {
   Matrix3 cross;
   cross << 0.0, -b.z(), b.y(), b.z(), 0.0, -b.x(), -b.y(), b.x(), 0.0;

@@ -34,7 +34,7 @@ std::array<double, 3> spectrum_errors(const Space& space, const StokesOperator& 
     for (int m = -n; m <= n; ++m) {
       const VectorHarmonics harmonics = vector_harmonics(space.fine, unit_sphere, n, m);
       const std::array<const Matrix*, 3> families{&harmonics.v, &harmonics.w, &harmonics.x};
-      // At n = 0 there is only V, the expansion.
+      // At n = 0 the only harmonic is V, the expansion.
       for (int i = 0; i < (n == 0 ? 1 : 3); ++i) {
         const Matrix& u = *families[i];
         const double error = (layer.apply(u) - scale * eigenvalues(n)[i] * u).norm() / u.norm();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kDegree = 8;
 
-/// A group with its turns and as many longitudes as these need.
+/// A symmetry group with its rotations and the number of longitudes they require.
 struct Group {
   const char* name;
   Symmetry symmetry;
@@ -46,7 +46,7 @@ const std::vector<Group> kGroups{
     {"four turns", group_of({{}, kHalfTurn}, 4), 20},
     {"six turns and inversion", group_of({{}, kHalfTurn, kZ, kInversion}, 6), 18}};
 
-/// Largest differences between operators on symmetric fields and the full ones; of the Laplace layers on any density.
+/// Largest differences between operators on symmetric fields and the full ones; for the Laplace layers on any density.
 void check_against_full(const SphereTransform& transform, const SymmetrySubspace& subspace, int fold,
                         const LayerSelection& everything) {
   const RotatedQuadrature quadrature = make_rotated_quadrature(transform.grid(), 1.15);
@@ -76,7 +76,7 @@ void check_against_full(const SphereTransform& transform, const SymmetrySubspace
   for (const auto layer : kScalarLayers) {
     BOOST_TEST(max_difference((symmetric.*layer).apply(scalars), (all.*layer).apply(scalars)) < 1e-12);
   }
-  // What only Stokes layers need is less, and another path.
+  // Stokes layers alone need fewer kernels and are assembled by a different code path.
   const LayerSelection stokes{.stokes_single = true, .stokes_double = true, .plain = everything.plain};
   const LayerOperators alone =
       assemble_symmetric_operators(quadrature, transform, position, stokes, of_symmetric, subspace, fold);

@@ -14,7 +14,7 @@ constexpr int kOrder = 8;
 
 Matrix star(int fold, double chirality) { return star_shape(kOrder, fold, chirality); }
 
-/// Largest difference between all operators assembled with and without use of the maps.
+/// Largest difference between all operators assembled with and without the symmetry maps.
 double difference(const SphereTransform& transform, const Matrix& position, const std::vector<Reflection>& reflections,
                   int fold, const LayerSelection& everything) {
   const RotatedQuadrature quadrature = make_rotated_quadrature(transform.grid(), 1.15);
@@ -56,13 +56,13 @@ BOOST_AUTO_TEST_CASE(rotated_targets_share_rows_without_change) {
 
 BOOST_AUTO_TEST_CASE(rotated_and_reflected_targets_share_rows_without_change) {
   const Reflection y{1, -1, 1}, x{-1, 1, 1};
-  // n + m is even in each harmonic of the star: mirror z as well.
+  // n + m is even in each harmonic of the star, so z is a mirror as well.
   BOOST_TEST(difference(star(3, 0.0), {{}, y, {1, 1, -1}, {1, -1, -1}}, 3, 18) < 1e-12);
   BOOST_TEST(difference(star(4, 0.0), {{}, x, y, {-1, -1, 1}}, 4, 20) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(targets_in_a_mirror_need_half_their_nodes) {
-  // One longitude stands for all four of an axisymmetric body, and lies in the mirror y.
+  // On an axisymmetric body one longitude represents all four; it lies in the mirror plane of y.
   const SphereTransform transform(kOrder, make_grid(kOrder, 4), 1);
   const Reflection x{-1, 1, 1}, y{1, -1, 1}, half_turn{-1, -1, 1};
   Matrix pear = Matrix::Zero(n_coefficients(kOrder), 3);

@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(no_damage_is_read_in_silence) {
     write_text(path, altered);
     try {
       const vehd::Checkpoint read = vehd::read_checkpoint(path);
-      // The byte belonged to padding or to a description.
+      // The byte is padding or part of a description.
       BOOST_TEST_REQUIRE((read.state.vesicles[0].position == written.state.vesicles[0].position));
       BOOST_TEST_REQUIRE((read.state.vesicles[0].tension == written.state.vesicles[0].tension));
       BOOST_TEST_REQUIRE(read.state.time == written.state.time);

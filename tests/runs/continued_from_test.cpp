@@ -19,7 +19,7 @@ namespace {
 const std::string field_along_x = "field = [0.5, 0.0, 0.0]\n", no_field = "field = [0.0, 0.0, 0.0]\n";
 const std::string shear = "[flow]\nkind = \"shear\"\nrate = 0.5\n";
 
-/// An ellipsoid that charges; in a field along x its poles do not lie on the axis of symmetry.
+/// An ellipsoid that charges; in a field along x its poles are off the axis of symmetry.
 std::string scene_text(const std::string& field, double end, const std::string& more = {}) {
   return "[shape]\nkind = \"ellipsoid\"\naxes = [1.3, 1.0, 1.0]\n[membrane]\nbending_modulus = 0.5\n"
          "[electric]\nconductivity_in = 0.5\nconductivity_out = 1.0\n" +
@@ -33,7 +33,7 @@ struct Runs {
     write_text(directory / "scene.toml", text);
     return {directory / "scene.toml", {}};
   }
-  /// @param from  of the run that it continues; empty: none
+  /// @param from  name of the run that it continues; empty: none
   nlohmann::json run(const std::string& name, const std::string& text, const std::string& from = {},
                      bool resume = false) const {
     const vehd::SceneSource given = source(text);
@@ -79,7 +79,7 @@ BOOST_FIXTURE_TEST_CASE(a_field_that_is_switched_off_is_a_pulse, Runs) {
   const nlohmann::json summary = run("second", scene_text(no_field, 0.5), "first");
   const vehd::HistoryTable pulse(history("pulse")), second(history("second"));
   check_same_end(pulse, second);
-  // The first row is the one behind the jump.
+  // The second run starts with the row just after the jump.
   constexpr std::size_t jump = 5;
   const std::vector<double>& tension = pulse.column("tension_integral");
   BOOST_TEST(pulse.column("time")[jump] == second.column("time").front(), boost::test_tools::tolerance(1e-12));
@@ -92,7 +92,7 @@ BOOST_FIXTURE_TEST_CASE(a_field_that_is_switched_off_is_a_pulse, Runs) {
   BOOST_TEST(file_text(directory / "second/scene.toml").starts_with("# from " + directory / "first" + " at time 0.25"));
 }
 
-// The axis of the first run is no symmetry of the second.
+// The symmetry axis of the first run is no symmetry of the second.
 BOOST_FIXTURE_TEST_CASE(symmetry_is_that_of_the_state_under_the_new_flow, Runs) {
   const std::string off = "symmetry = \"off\"\n";
   BOOST_TEST(run("first", scene_text(field_along_x, 0.125)).at("symmetry") != "none");

@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_SUITE(error_bars, *boost::unit_test::label("slow") * boost::unit
 
 namespace {
 
-/// An ellipsoid that relaxes, as it is charged by a pulse.
+/// An ellipsoid that relaxes while a pulse charges it.
 vehd::Scene pulsed(const std::string& numerics) {
   return vehd::parse_scene(
       "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.4]\n[membrane]\nbending_modulus = 1.0\ncapacitance = 1.0\n"
@@ -31,7 +31,7 @@ vehd::Scene pulsed(const std::string& numerics) {
       "scene.toml", ".");
 }
 
-/// One of docs/scenes at a tolerance.
+/// A scene of docs/scenes with a tolerance.
 vehd::Scene shipped(const std::string& name, double tolerance) {
   const auto& scenes = vehd::shipped_scenes();
   const auto found = std::ranges::find(scenes, name, &vehd::ShippedScene::name);
@@ -41,7 +41,7 @@ vehd::Scene shipped(const std::string& name, double tolerance) {
   return scene;
 }
 
-/// A field of many periods, which limit the steps of either run.
+/// A field of many periods; the period limits the steps of both runs.
 vehd::Scene alternating(const std::string& tolerance) {
   return vehd::parse_scene(
       "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.2]\n[membrane]\nbending_modulus = 0.01\ncapacitance = 1.0\n"
@@ -59,7 +59,7 @@ struct Files {
 
   Files() { vehd::make_directory(paths.directory); }
 
-  /// Goes on for so many steps, or to the end, and leaves the files as a kill would.
+  /// Takes this many steps, or runs to the end, and leaves the files as a kill would.
   void go_on(const vehd::Scene& scene, int n_steps = -1) const {
     std::optional<vehd::Checkpoint> checkpoint;
     if (std::filesystem::exists(paths.checkpoint())) checkpoint = vehd::read_checkpoint(paths.checkpoint());
@@ -71,7 +71,7 @@ struct Files {
   [[nodiscard]] vehd::HistoryTable errors() const { return vehd::HistoryTable(paths.history_error()); }
 };
 
-/// Share of the rows in which the estimate is within a factor of five of what is true.
+/// Share of the rows in which the estimate is within a factor of five of the true error.
 double share_of_good(const Files& run, const Files& exact, const std::string& column) {
   const vehd::HistoryTable values = run.history(), errors = run.errors(), reference = exact.history();
   BOOST_TEST_REQUIRE(errors.n_rows() == values.n_rows());
@@ -85,14 +85,14 @@ double share_of_good(const Files& run, const Files& exact, const std::string& co
   return good / static_cast<double>(values.n_rows() - 1);
 }
 
-/// Shares of rows whose bars hold.
+/// Shares of rows whose error bars hold.
 struct Shares {
   double above_error = 0.0, below_30_errors = 0.0;
 };
 
-/// Of the rows at times `first`, `first` + `every`, …: the largest error of shape, energy, tension and potential, over
-/// the size of its column, against the largest bar.
-/// @param period  of the forcing, with which an error passes through zero: both are the largest of a period then
+/// Compares the largest error of shape, energy, tension and potential, over the size of its column, with the largest
+/// bar, in the rows at times `first`, `first` + `every`, ….
+/// @param period  of the forcing, with which an error passes through zero: both are then the largest within a period
 Shares shares_of(const Files& run, const Files& exact, double first, double every, double period = 0.0) {
   const vehd::HistoryTable values = run.history(), errors = run.errors(), reference = exact.history();
   BOOST_TEST_REQUIRE(errors.n_rows() == values.n_rows());
@@ -128,7 +128,7 @@ void check_nine_of_ten(const Shares& shares, const std::string& what) {
   BOOST_TEST(shares.below_30_errors >= 0.9, shares.below_30_errors << " below 30 times the error, " << what);
 }
 
-/// The largest error of a row, over the size of its column.
+/// Largest error of a row, over the size of its column.
 double worst_of(const vehd::HistoryTable& history, const vehd::HistoryTable& errors, std::size_t row) {
   double worst = 0.0;
   for (const std::string& name : history.names()) {
@@ -141,8 +141,8 @@ double worst_of(const vehd::HistoryTable& history, const vehd::HistoryTable& err
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(steps_of_fixed_size_know_their_error) {
-  // Degrees that leave out less than the steps do: an estimate is never below a part of what they leave out, which both
-  // runs have in common here.
+  // The truncation error is smaller than the error of the steps: an estimate is never below a part of the truncation
+  // error, which both runs have in common here.
   for (const std::string order : {"1", "2"}) {
     const Files run, exact;
     run.go_on(pulsed("degree = 10\ndt = 0.01\ntime_order = " + order));
@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(a_shape_at_rest_is_wrong_by_its_degrees_alone) {
   for (const std::string tolerance : {"1e-2", "1e-3"}) {
     const Files run;
     run.go_on(relaxing(tolerance));
-    // From where steps leave less than a tenth of what the degrees do.
+    // From this time on the error of the steps is less than a tenth of the truncation error.
     check_nine_of_ten(shares_of(run, exact, 7.0, 0.5), tolerance);
   }
 }
@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(steps_that_the_charging_limits_make_differences) {
 }
 
 BOOST_AUTO_TEST_CASE(no_row_is_wrong_by_less_than_a_part_of_what_its_degrees_leave_out) {
-  // The shape hardly changes any more; the degree falls, and for once that of the companion is the same.
+  // The shape hardly changes any more; the degree falls, and at times the companion has the same degree.
   vehd::Scene scene = shipped("ac_field_averaged", 1e-3);
   scene.numerics.end_time *= 0.125;
   const Files run;
@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(a_resumed_run_has_the_same_errors_bit_for_bit) {
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_is_killed_at_any_of_its_first_steps_has_the_same_errors) {
-  // Of fixed steps the companion makes one of two; with a tolerance its first one may pass several rows.
+  // With fixed steps the companion takes one step for two; with a tolerance its first step may pass several rows.
   for (const std::string numerics : {"degree = 4\ndt = 0.02", "tolerance = 1e-2\n[output]\nevery = 0.002"}) {
     vehd::Scene scene = pulsed(numerics);
     scene.numerics.end_time = 0.2;
@@ -287,7 +287,7 @@ BOOST_AUTO_TEST_CASE(the_worst_error_is_that_over_the_size_of_its_column) {
     std::istringstream stream("time,extent_x,Vm_north,Vm_max,inclination_deg,dipole_x\n" + rows);
     return vehd::HistoryTable(stream, "history.csv");
   };
-  // What vanishes by symmetry has errors of its own size, and the angle is measured by a radian.
+  // A quantity that vanishes by symmetry has errors of its own size, and the error of an angle is relative to a radian.
   const vehd::HistoryTable history = table("0,2,1e-18,1,0,0\n1,4,1e-18,1,0.1,0\n2,4,0,1,0,0\n");
   const vehd::HistoryTable errors = table("0,0,1e-18,0,0,1\n1,0.1,1e-18,0.02,0.05,1\n");
   const nlohmann::json worst = vehd::worst_error(history, errors);

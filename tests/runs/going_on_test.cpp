@@ -27,7 +27,7 @@ vehd::Scene relaxing() {
       "scene.toml", ".");
 }
 
-/// A field that is switched on and off again, with steps that begin with the past before both.
+/// A field that is switched on and off again; the steps before each switch start by extrapolation.
 vehd::Scene switched() {
   return vehd::parse_scene(
       "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.4]\n[membrane]\nbending_modulus = 1.0\ncapacitance = 1.0\n"
@@ -45,7 +45,7 @@ struct Directory {
   [[nodiscard]] vehd::Checkpoint checkpoint() const { return vehd::read_checkpoint(paths.checkpoint()); }
 };
 
-/// Goes on for so many steps.
+/// Takes this many steps.
 void go_on(vehd::RecordedRun& run, int n_steps) {
   run.start();
   for (; n_steps > 0; --n_steps) run.step();
@@ -53,7 +53,7 @@ void go_on(vehd::RecordedRun& run, int n_steps) {
 
 }  // namespace
 
-// Rows and snapshots that the checkpoint does not count are made again.
+// Rows and snapshots that the checkpoint does not count are computed again.
 BOOST_AUTO_TEST_CASE(steps_behind_the_checkpoint_are_made_again) {
   const vehd::Scene scene = relaxing();
   constexpr int kAll = 8;
@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(steps_behind_the_checkpoint_are_made_again) {
   BOOST_TEST(killed.checkpoint().snapshots_checksum == whole.checkpoint().snapshots_checksum);
 }
 
-// Just after a jump a checkpoint holds a state without a past.
+// Just after a jump a checkpoint holds a state without history.
 BOOST_AUTO_TEST_CASE(a_run_goes_on_bit_for_bit_from_each_of_its_steps) {
   const vehd::Scene scene = switched();
   const Directory whole;
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(the_end_of_a_session_brings_the_checkpoint_up_to_date) {
   BOOST_TEST(directory.checkpoint().state.step == 3);
 }
 
-// What is left would change the shape by less than the tolerance.
+// The remaining motion would change the shape by less than the tolerance.
 BOOST_AUTO_TEST_CASE(a_run_until_rest_ends_where_its_shape_does) {
   vehd::Scene scene = relaxing();
   scene.numerics.tolerance = 1e-3;
@@ -168,7 +168,7 @@ BOOST_AUTO_TEST_CASE(a_run_until_rest_waits_for_its_waveforms) {
 
 namespace {
 
-/// The history of an elongated vesicle in shear, viscous inside.
+/// History of an elongated vesicle in shear with this viscosity ratio.
 vehd::HistoryTable sheared(const Directory& directory, double viscosity_ratio, int order, double end_time) {
   const vehd::Scene scene = vehd::parse_scene(
       fmt::format("[shape]\nkind = \"ellipsoid\"\naxes = [1.6, 1.0, 1.0]\n[membrane]\nbending_modulus = 0.1\n[fluid]\n"
@@ -189,14 +189,13 @@ BOOST_AUTO_TEST_CASE(a_viscous_vesicle_tumbles_where_another_one_tank_treads) {
     int order;
     double end_time;
     std::string regime;
-    double
-        largest_difference;  // degrees: that of first-order steps, which leave a steady shape a velocity, and of rows
+    double largest_difference;  // degrees; first-order steps leave a steady shape a velocity, and rows are spaced
   };
   for (const Case& one : {Case{1.0, 4, 12.0, "tank-treading", 0.1}, Case{14.0, 1, 24.0, "tumbling", 3.0}}) {
     const Directory directory;
     const vehd::HistoryTable history = sheared(directory, one.viscosity_ratio, one.order, one.end_time);
     BOOST_TEST(vehd::regime_of(history, vehd::OutputUnits()) == one.regime);
-    // The shape turns from z to x, against the inclination, which is the same after half a revolution.
+    // The shape turns from z to x, opposite to the inclination, which repeats after half a revolution.
     const auto& times = history.column("time");
     const auto& tumbling = history.column("tumbling_frequency");
     const auto& inclination = history.column("inclination_deg");

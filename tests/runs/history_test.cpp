@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(a_membrane_that_porates_and_differs_from_place_to_place_has
   const auto place = [&](std::string_view name) { return std::ranges::find(both, name, &vehd::HistoryColumn::name); };
   BOOST_TEST_REQUIRE((place("conductance_max") != both.end()));
   BOOST_TEST((place("net_force_z") - place("conductance_max")) == 6);
-  // Of several they are those of each.
+  // With several vesicles these are columns of each vesicle.
   kind.rows = vehd::HistoryKind::of_all;
   BOOST_TEST(vehd::history_columns(kind).size() == vehd::history_columns(vehd::HistoryKind::of_all).size());
 }
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(columns_go_by_their_plain_names_whatever_their_units) {
   BOOST_TEST(numbers.header("time") == "time");
   BOOST_TEST(numbers.unit("extent_x") == "");
   BOOST_TEST(numbers.column("extent_x")[0] == 2.5);
-  // Without a scale the unit means nothing.
+  // Without a scale the unit has no meaning.
   BOOST_TEST(shown.header("Vm_max") == "Vm_max");
   BOOST_TEST(shown.column("Vm_max")[0] == 0.25);
   // Counts are whole numbers.
@@ -147,12 +147,12 @@ BOOST_AUTO_TEST_CASE(a_history_of_an_earlier_program_goes_on_with_its_columns) {
   const vehd::HistoryTable table(path);
   BOOST_TEST(table.column("time").back() == 1.5);
   BOOST_TEST(table.names().back() == "Vm_phase_deg");
-  // Fewer no program ever had that wrote checkpoints of today.
+  // No program that wrote checkpoints of the present format had fewer columns.
   write_text(path, "time,dt\n");
   BOOST_CHECK_THROW(vehd::require_columns(path, vehd::HistoryKind::of_one), vehd::InputError);
 }
 
-// A checksum counts all that is above it, so that rows which were taken out or exchanged are missed as well.
+// The checksum covers all rows above it, so that removed or exchanged rows are detected as well.
 BOOST_AUTO_TEST_CASE(an_altered_row_is_named) {
   const Written written({});
   const std::string text = file_text(written.path);
@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(an_altered_row_is_named) {
   header.replace(header.find("extent_x"), 8, "extent_y");
   BOOST_TEST(refusal_of(header + lines[1] + lines[2]) == ":2" + why);
   BOOST_TEST(refusal_of(lines[0] + lines[1] + "3,4\n") == ":3" + why);
-  // What a kill leaves of a row is none.
+  // A row cut off by a kill does not count.
   BOOST_TEST(refusal_of(lines[0] + lines[1] + "3,4") == "");
   BOOST_TEST(vehd::HistoryTable(written.path).n_rows() == 1U);
 }
@@ -213,7 +213,7 @@ BOOST_AUTO_TEST_CASE(the_regime_is_that_of_the_second_half) {
     vehd::HistoryTable table(kUnits, vehd::HistoryKind::of_one);
     for (int i = 0; i <= 200; ++i) {
       vehd::HistoryRow row = row_at(0.1 * i);
-      // In (−90, 90], as an axis has it.
+      // In (−90, 90], the range for an axis.
       row.diagnostics.vesicles[0].inclination_deg = 360.0 * std::remainder(turns(row.time), 0.5);
       row.diagnostics.vesicles[0].treading_frequency = treading;
       table.append(row);

@@ -28,7 +28,7 @@ std::string three_vesicles(const std::string& numerics) {
          numerics;
 }
 
-/// Four of which two are images of others.
+/// Four vesicles, of which two are images of others.
 const std::string kTwoPairs =
     "[shape]\nkind = \"radial\"\nmodes = [{n = 2, m = 1, a = 0.2}, {n = 3, m = -2, a = 0.1}]\n"
     "[membrane]\nbending_modulus = 0.1\nconductance = 5.0\n[flow]\nkind = \"shear\"\nrate = 1.0\n"
@@ -42,7 +42,7 @@ const std::string kTwoPairs =
     "modes = [{n = 2, m = 1, a = 0.2}, {n = 3, m = -2, a = -0.1}]\n"
     "[numerics]\norder = 4\ntime_order = 2\ndt = 0.1\nend_time = 0.1\n[output]\nevery = 0.1\n";
 
-/// Two with displacement currents in a pulse, of different size, fluids and membranes.
+/// Two vesicles with displacement currents in a pulse, with different sizes, fluids and membranes.
 const std::string kRelaxingCharges =
     "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.8, 1.2]\n"
     "[membrane]\nbending_modulus = 0.2\ncapacitance = 0.8\nconductance = 0.5\n"
@@ -53,13 +53,13 @@ const std::string kRelaxingCharges =
     "[vesicle.electric]\nconductivity_in = 0.4\npermittivity_ratio = 1.5\n"
     "[numerics]\norder = 4\ntime_order = 2\ndt = 0.05\nend_time = 0.1\n";
 
-/// The same with pores that open.
+/// The same vesicles with pores that open.
 const std::string kPores = kRelaxingCharges.substr(0, kRelaxingCharges.find("initial_Vm")) +
                            "[poration]\nmodel = \"pores\"\ncreation_rate = 0.5\ncreation_Vm = 0.1\nrest_density = "
                            "2.0\npore_radius = 0.1\nmembrane_thickness = 0.2\n" +
                            kRelaxingCharges.substr(kRelaxingCharges.find("[[vesicle]]"));
 
-/// Enough of them for multipole expansions and for inverses of their own.
+/// Enough vesicles for multipole expansions and for inverses of their own.
 const std::string kSuspension =
     "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
     "[flow]\nkind = \"shear\"\nrate = 1.0\n[contact]\nenergy = 0.1\nrange = 0.5\n"
@@ -71,7 +71,7 @@ const std::string kSuspension =
 class Run {
  public:
   [[nodiscard]] std::string file(const std::string& name) const { return file_text(folder_ / ("out/" + name)); }
-  /// Of all numbers of each snapshot.
+  /// Checksums of all numbers of each snapshot.
   [[nodiscard]] std::vector<std::int64_t> checksums() const {
     const vehd::RunReader run(folder_ / "out/run.h5");
     std::vector<std::int64_t> all;
@@ -82,7 +82,7 @@ class Run {
     return nlohmann::json::parse(file("summary.json")).at(what).dump();
   }
 
-  /// What each of the ranks says at the end.
+  /// Final message of each rank.
   std::vector<std::string> go_on(const std::string& scene, int n_ranks) const {
     return on_ranks(n_ranks, [&](const Ranks& ranks) {
       return ranks.together([&] {
@@ -110,7 +110,7 @@ void check_completed(const std::vector<std::string>& said) {
   for (const std::string& of_rank : said) BOOST_TEST(of_rank == "completed");
 }
 
-/// Runs of this scene on these numbers of ranks have the files and counts of one alone.
+/// Checks that runs of this scene on these numbers of ranks give the files and counts of a run on one rank.
 void check_same_files(const std::string& scene, const std::vector<int>& numbers) {
   const Run alone;
   check_completed(alone.go_on(scene, 1));

@@ -9,8 +9,8 @@
 BOOST_AUTO_TEST_SUITE(rising_degree, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
 BOOST_AUTO_TEST_CASE(what_solves_leave_at_every_degree_is_no_reason_for_more) {
-  // Between its pulses the membrane becomes compressed: what is wrong is expected to grow a hundred times, and what the
-  // solves of a first-order step leave, the same at degree 26 and at 64, is more than the degrees may leave out.
+  // Between its pulses the membrane becomes compressed: errors are expected to grow a hundred times, and the residual
+  // of the solves of a first-order step, the same at degree 26 and at 64, exceeds the permitted truncation error.
   vehd::Scene scene = vehd::at_tolerance(vehd::read_scene(VEHD_SOURCE_DIR "/docs/scenes/two_step_pulse.toml"), 1e-7);
   scene.numerics.end_time = 0.36;
   const vehd::HistoryTable history = vehd::testing::history_of(scene);
@@ -21,7 +21,7 @@ BOOST_AUTO_TEST_CASE(what_solves_leave_at_every_degree_is_no_reason_for_more) {
 
 BOOST_AUTO_TEST_CASE(what_grows_a_million_times_is_as_exact_as_the_tolerance) {
   // From the end of the first pulse to t = 1.2 disturbances of degree 25 grow 3e5 times and those of degree 40 more, so
-  // degrees that are cut off before and errors of steps at degrees that are not needed become visible.
+  // earlier truncation and errors of steps at degrees that are not needed become visible.
   const auto history = [](double tolerance) {
     vehd::Scene scene =
         vehd::at_tolerance(vehd::read_scene(VEHD_SOURCE_DIR "/docs/scenes/two_step_pulse.toml"), tolerance);

@@ -62,7 +62,7 @@ void remove_object(hid_t file, const std::string& path) {
   BOOST_TEST_REQUIRE(H5Ldelete(file, path.c_str(), H5P_DEFAULT) >= 0);
 }
 
-/// As an earlier vehd wrote it.
+/// Removes the seals, as in a file of an earlier vehd.
 void remove_seals(const vehd::RunPaths& paths) {
   {
     const vehd::Hdf5Handle file(H5Fopen(paths.snapshots().c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
@@ -92,7 +92,7 @@ BOOST_FIXTURE_TEST_CASE(rows_are_known_by_their_checksums_also_behind_the_last_c
   const std::string text = file_text(paths.history());
   BOOST_TEST_REQUIRE(std::cmp_greater(text.size(), checkpoint.history_bytes + 100));
   BOOST_TEST(table_refusal(text) == "");
-  // A kill may have cut this one as well.
+  // A kill may have cut off this line as well.
   BOOST_TEST(table_refusal(text.substr(0, text.size() - 10)) == "");
   BOOST_TEST(table_refusal(text.substr(0, static_cast<std::size_t>(checkpoint.history_bytes))) == "");
   std::string edited = text;

@@ -10,7 +10,7 @@ BOOST_AUTO_TEST_SUITE(snapshots)
 
 namespace {
 
-/// Of a column at the snapshots of a pulse that draws a vesicle out until it is taut, by the time.
+/// Values of a column at the snapshots of a pulse that stretches a vesicle until it is taut, by snapshot number.
 std::map<int, double> values_at_snapshots(double tolerance, const std::string& column) {
   vehd::Scene scene = vehd::at_tolerance(vehd::read_scene(VEHD_SOURCE_DIR "/docs/scenes/dc_pulse.toml"), tolerance);
   scene.numerics.dt.reset();
@@ -28,7 +28,7 @@ std::map<int, double> values_at_snapshots(double tolerance, const std::string& c
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(those_within_a_step_have_the_tension_of_their_time) {
-  // A taut membrane magnifies what is wrong with its shape.
+  // A taut membrane magnifies errors of its shape.
   constexpr double tolerance = 1e-5;
   const auto found = values_at_snapshots(tolerance, "tension_integral");
   const auto expected = values_at_snapshots(1e-2 * tolerance, "tension_integral");

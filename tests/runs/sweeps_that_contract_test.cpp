@@ -8,7 +8,7 @@
 BOOST_AUTO_TEST_SUITE(sweeps_that_contract)
 
 BOOST_AUTO_TEST_CASE(no_step_is_given_up_that_further_sweeps_would_make_exact) {
-  // Each sweep takes all but a hundredth of what is wrong with V_m and, a sweep later, with the tension.
+  // Each sweep reduces the error of V_m to a hundredth and, a sweep later, that of the tension.
   vehd::Scene scene = vehd::at_tolerance(vehd::read_scene(VEHD_SOURCE_DIR "/docs/scenes/ac_field.toml"), 1e-6);
   scene.numerics.end_time = 0.06;
   const vehd::HistoryTable history = vehd::testing::history_of(scene);

@@ -9,7 +9,7 @@ BOOST_AUTO_TEST_SUITE(tension_of_long_steps, *boost::unit_test::label("slow") * 
 
 namespace {
 
-/// ∫λ dA over its largest magnitude where the field has drawn the vesicle for a share of the scene.
+/// ∫λ dA over its largest magnitude after the field has stretched the vesicle for a share of the scene.
 double tension(double tolerance, double share) {
   vehd::Scene scene =
       vehd::at_tolerance(vehd::read_scene(VEHD_SOURCE_DIR "/docs/scenes/ac_field_averaged.toml"), tolerance);
@@ -24,8 +24,8 @@ double tension(double tolerance, double share) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(what_steps_leave_is_magnified_by_a_membrane_that_becomes_taut) {
-  // The field draws the vesicle within a few steps, whose sweeps and quadrature are wrong by a tenth of the tolerance.
-  // The tension is wrong by twenty times that.
+  // The field stretches the vesicle within a few steps, whose sweeps and quadrature have errors of a tenth of the
+  // tolerance. The error of the tension is twenty times that.
   constexpr double share = 0.004;
   for (const double tolerance : {1e-5, 1e-6}) {
     for (const double later : {1.0, 2.0}) {

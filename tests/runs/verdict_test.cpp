@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Verdict of a run whose rows are these.
+/// Verdict of a run with these rows.
 std::string judged(const std::vector<vehd::HistoryRow>& rows, const vehd::TrustDemands& demands = {},
                    const std::string& stop_reason = {}) {
   const TemporaryDirectory directory;
@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(wrinkles_finer_than_the_degree_are_named_where_something_is
   BOOST_TEST(judged({row_at(0, 0, 0), compressed}, {1e-3}) == "truncation above 0.001 since time 1 (worst 0.1)");
 }
 
-// Of 1e-4 a growth by e³ = 20 makes 2e-3, one by e⁸ 0.3.
+// Starting from 1e-4, a growth by e³ = 20 gives 2e-3, one by e⁸ gives 0.3.
 BOOST_AUTO_TEST_CASE(wrinkles_that_had_the_time_to_grow_unseen_are_reported) {
   const auto compressed = [](double time, double growth, double degree = 20.0, double truncation = 1e-4) {
     vehd::HistoryRow row = row_at(time, 0, 0);
@@ -120,11 +120,11 @@ BOOST_AUTO_TEST_CASE(wrinkles_that_had_the_time_to_grow_unseen_are_reported) {
   BOOST_TEST(judged({compressed(0, 5), compressed(1, 3)}) == wrinkles + "3e+03 times");
   BOOST_TEST(judged({compressed(0, 2), compressed(1, 1)}) == "trustworthy");
   BOOST_TEST(judged({compressed(0, 2), compressed(1, 1)}, {1e-3}) == wrinkles + "2e+01 times");
-  // Nothing was there to grow.
+  // Without truncation nothing can grow.
   BOOST_TEST(judged({compressed(0, 5, 20.0, 0.0), compressed(1, 3)}) == "trustworthy");
-  // Seen, and hence followed by the tolerance.
+  // The wrinkles are resolved, and hence controlled by the tolerance.
   BOOST_TEST(judged({compressed(0, 5, 9.0), compressed(1, 3, 9.0)}) == "trustworthy");
-  // What grew before the membrane was stretched is gone.
+  // Wrinkles that grew before the membrane was stretched are gone.
   BOOST_TEST(judged({compressed(0, 2), compressed(1, 1), compressed(2, 0, 0.0), compressed(3, 2), compressed(4, 1)}) ==
              "trustworthy");
 }
@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(run_that_stopped_says_so_and_why) {
 }
 
 BOOST_AUTO_TEST_CASE(steps_that_ring_are_seen) {
-  // Growing for some steps, then damped, then growing again, as the first-order step does near a sphere.
+  // Growth for some steps, then damping, then growth again, as with the first-order step near a sphere.
   const auto rows = [](double tension_swing, double tail_factor) {
     std::vector<vehd::HistoryRow> result;
     for (int i = 0; i < 60; ++i) {
@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(jumps_collapses_and_changes_of_degree_are_no_ringing) {
     const double t = 0.01 * i;
     // A train of pulses of one step each moves the shape smoothly.
     pulses.push_back(row_of({.time = t, .tension = i % 4 == 0 ? -300.0 : 40.0, .tail = 1.0 + 0.5 * std::sin(t)}));
-    // By four decades within ten steps, the tension with it.
+    // The tail rises by four decades within ten steps, while the tension falls.
     const double part = 0.5 * (1.0 + std::tanh(20.0 * (t - 1.0)));
     collapse.push_back(row_of({.time = t, .tension = 400.0 - 900.0 * part, .tail = std::pow(10.0, -3.0 + 4.0 * part)}));
     const bool raised = i / 7 % 2 == 1;
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(fixed_steps_that_fail_again_and_again_are_seen) {
   BOOST_TEST(judged(rows(5)) == "rejected before 20 of 100 steps since time 0.5");
   BOOST_TEST(judged(rows(12)) == "trustworthy");
   BOOST_TEST(judged(rows(5), {1e-3}) == "trustworthy");
-  // One step in three, of a few.
+  // One step in three, but of only a few steps.
   std::vector<vehd::HistoryRow> few = rows(3);
   few.resize(20);
   BOOST_TEST(judged(few) == "trustworthy");

@@ -10,7 +10,7 @@ BOOST_AUTO_TEST_SUITE(accuracy)
 
 namespace {
 
-/// A scene whose [numerics] is this.
+/// Scene with the given [numerics].
 std::string with_numerics(const std::string& numerics) {
   return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 2.0]\n[numerics]\nend_time = 10.0\n" + numerics;
 }
@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(steps_stay_well_below_a_period) {
 BOOST_AUTO_TEST_CASE(scene_at_a_tolerance_is_that_of_a_file_with_it) {
   const vehd::Scene fixed = parsed(with_numerics("dt = 0.5\norder = 12\n"));
   BOOST_TEST((vehd::at_tolerance(fixed, 1e-5) == parsed(with_numerics("tolerance = 1e-5\n"))));
-  // A dt beside a tolerance is a bound and stays.
+  // A dt given together with a tolerance is an upper bound and is kept.
   const vehd::Scene bounded = parsed(with_numerics("tolerance = 1e-2\ndt = 0.5\n"));
   BOOST_TEST((vehd::at_tolerance(bounded, 1e-3) == parsed(with_numerics("tolerance = 1e-3\ndt = 0.5\n"))));
 }

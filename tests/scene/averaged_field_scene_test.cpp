@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(the_model_has_the_frequency_and_no_waveform) {
   BOOST_TEST(*model.electric->averaged_frequency == 50.0);
   BOOST_TEST(model.electric->displacement_current);
   for (const double time : {0.0, 0.3, 1.7}) BOOST_TEST(model.electric->waveform.at(time) == 1.0);
-  // Steps follow the shape, not the period.
+  // The steps resolve the shape, not the period.
   BOOST_TEST(vehd::step_control_of(scene).largest == 0.1);
   BOOST_TEST((parsed(vehd::effective_scene(scene)) == scene));
 }
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(plan_says_what_the_average_leaves_out) {
     return 0.0;
   };
   BOOST_TEST(ripple("1e3") > 0.0);
-  // Far above charging Q₂ is that of the fluids alone, and the ripple falls like 1/f.
+  // Far above the charging frequency Q₂ is determined by the fluids alone, and the ripple decreases like 1/f.
   BOOST_TEST(ripple("1e4") / ripple("1e5") == 10.0, boost::test_tools::tolerance(1e-3));
 }
 

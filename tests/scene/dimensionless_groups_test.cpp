@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(of_further_effects_have_the_written_values) {
   BOOST_TEST(groups["Λ"].value == 7.0);
   BOOST_TEST(groups["S"].value == 0.3);
   BOOST_TEST(groups["c₀"].value == -0.5, tolerance);
-  // Bulging outwards as much as the sphere of half the radius: C₀ = −2c = 1/2.
+  // The spontaneous curvature is that of a sphere of half the radius, bulging outwards: C₀ = −2c = 1/2.
   BOOST_TEST(groups["C₀a"].value == 1.0, tolerance);
   BOOST_TEST(groups["t_g"].value == 3.0 / (2.0 * 5.0 * 2.0), tolerance);
   BOOST_TEST(!groups.contains("t_MW"));

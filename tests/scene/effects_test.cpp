@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(waveform_needs_something_to_act_on) {
              "scene.toml:12: \"waveform\" in [electric] is the text 'ac'; accepted: a table [electric.waveform]");
 }
 
-// A sweep of a field or flow has its control row.
+// The control row of a sweep over a field or flow has the value zero.
 BOOST_AUTO_TEST_CASE(a_waveform_of_zero_asks_for_no_step) {
   const std::string train = "kind = 'pulse_train'\nduration = 1e-12\nperiod = 2e-12\n";
   const std::string ac = "kind = 'ac'\nfrequency = 1e12\n";

@@ -28,7 +28,7 @@ BOOST_AUTO_TEST_CASE(it_may_be_set_over_a_field_with_units) {
              boost::test_tools::tolerance(1e-14));
 }
 
-// The time μ/(εE²) follows from the field that acts.
+// The time μ/(εE²) follows from the field after scaling.
 BOOST_AUTO_TEST_CASE(reference_scales_follow_from_it) {
   const std::string text =
       "[units]\n[shape]\nkind = \"prolate\"\nreduced_volume = 0.9\narea = \"1256 um^2\"\n"

@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(numbers_beyond_the_largest_are_refused) {
   BOOST_TEST(message_of(numerics("dt = '1e999 s'\nend_time = 1\n")).starts_with("scene.toml:5: \"dt\" in [numerics]"));
 }
 
-// Squares and products of such numbers are zero or infinite.
+// Squares and products of such numbers underflow or overflow.
 BOOST_AUTO_TEST_CASE(numbers_whose_powers_no_number_holds_are_refused) {
   int count = 0;
   for (const vehd::KeyDescription& key : vehd::scene_keys()) {
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(numbers_whose_powers_no_number_holds_are_refused) {
              "unless 0");
 }
 
-// With units as well: of the value, of a scale and of what both make.
+// The same check with units: for a value, for a scale and for their combination.
 BOOST_AUTO_TEST_CASE(quantities_whose_powers_no_number_holds_are_refused) {
   const auto message = [](const std::string& scales, const std::string& rest) {
     return message_of("[units]\n" + scales + numerics("dt = 1\nend_time = 1\n[fluid]\nviscosity = 1\n" + rest));
@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(a_negative_zero_is_zero) {
   }
 }
 
-// Whatever asks for them, by one rule.
+// One rule for all sources of steps.
 BOOST_AUTO_TEST_CASE(steps_that_no_run_takes_are_refused) {
   const std::string field = "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\n";
   const auto message = [&](const std::string& keys, const std::string& waveform) {
@@ -148,7 +148,7 @@ BOOST_AUTO_TEST_CASE(files_of_a_terabyte_are_refused_unread) {
     }
     return std::string();
   };
-  // Holes take no room.
+  // A sparse file occupies no disk space.
   write_text(directory / "large.toml", "");
   std::filesystem::resize_file(directory / "large.toml", std::uintmax_t{1} << 40);
   BOOST_TEST(message("large.toml") ==

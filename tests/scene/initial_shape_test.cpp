@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(families_have_the_reduced_volume_and_the_area_of_the_unit_s
   }
 }
 
-// Δ = A/a_V² − 4π; an ellipsoid remains one, a radius keeps its modes.
+// Δ = A/a_V² − 4π; an ellipsoid stays an ellipsoid, a radial shape keeps its modes.
 BOOST_AUTO_TEST_CASE(shapes_are_moved_to_a_reduced_volume_or_excess_area) {
   for (const double volume : {0.8, 0.95, 0.999}) {
     for (const char* shape :

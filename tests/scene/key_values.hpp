@@ -6,8 +6,7 @@
 
 #include "bie/scene/schema.hpp"
 
-/// The number as a value of the key's type, among others that are in order; empty for keys that take no number.
-/// @param unit  of a key that must have one
+/// A valid value of the key's type that contains the number; empty for keys that take no number.
 inline std::string value_with_number(const vehd::KeyDescription& key, const std::string& number,
                                      const std::string& unit = "m") {
   switch (key.type) {
@@ -33,8 +32,7 @@ inline std::string value_with_number(const vehd::KeyDescription& key, const std:
   }
 }
 
-/// A scene that is in order but for `key`, which has this value; the table of the key holds nothing else that is read
-/// before.
+/// A valid scene except for the value of `key`; the table of the key contains nothing else that is read before it.
 inline std::string scene_with(const vehd::KeyDescription& key, const std::string& value) {
   const std::string table(key.table);
   std::string text;

@@ -13,7 +13,7 @@ namespace {
 
 using vehd::LargestValues;
 
-/// A nearly spherical giant vesicle of radius 10 um in a dc field for a millisecond, within the model in all respects.
+/// A nearly spherical giant vesicle of radius 10 um in a dc field for a millisecond, within the range of the model.
 std::string quiet_scene(const std::string& more = {}) {
   return "[units]\n"
          "[shape]\nkind = \"prolate\"\nreduced_volume = 0.99\narea = \"1256.6370614359172 um^2\"\n"
@@ -30,7 +30,7 @@ std::string replaced(std::string text, const std::string& old, const std::string
   return text.replace(text.find(old), old.size(), by);
 }
 
-/// By their names.
+/// Warnings by name.
 std::map<std::string, vehd::ModelWarning> warnings_of(const std::string& text,
                                                       const std::optional<LargestValues>& reached = {}) {
   std::map<std::string, vehd::ModelWarning> result;
@@ -42,7 +42,7 @@ std::map<std::string, vehd::ModelWarning> warnings_of(const std::string& text,
 
 constexpr double rounding = 1e-12;
 
-/// In units of the scene.
+/// Value in units of the scene.
 double scaled(const vehd::Scene& scene, double value, int length, int time, int viscosity) {
   return value / std::pow(*scene.units->length, length) / std::pow(*scene.units->time, time) /
          std::pow(*scene.units->viscosity, viscosity);
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(a_weak_field_is_within_the_model) {
   BOOST_TEST(warnings_of(with_appended("")).empty());
 }
 
-// Charged within a microsecond to 3/2 E a.
+// The membrane charges within a microsecond to 3/2 E a.
 BOOST_AUTO_TEST_CASE(poration_follows_from_the_field_unless_the_scene_has_it) {
   const std::string strong = replaced(quiet_scene(), "10 kV/m", "100 kV/m");
   const auto found = warnings_of(strong);
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(poration_follows_from_the_field_unless_the_scene_has_it) {
              "V_m reaches 1.5 V; membranes porate near 1 V, and the scene has no [poration]");
   const std::string criterion = "[poration]\nmodel = \"criterion\"\nthreshold_Vm = \"1 V\"\n";
   BOOST_TEST(!warnings_of(strong + criterion).contains("poration"));
-  // What the run reached counts once it is known.
+  // The values reached in the run take precedence once they are available.
   BOOST_TEST(!warnings_of(strong, LargestValues{}).contains("poration"));
 }
 
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(lysis_is_judged_by_the_tension_of_the_run) {
                   .contains("lysis"));
 }
 
-// 1/σ_e of ε: the fluids relax in 3ε/3σ, a pulse of ten times that is the limit.
+// Equal fluids relax in 3ε/3σ; the limit is a pulse of ten times that.
 BOOST_AUTO_TEST_CASE(short_pulses_and_high_frequencies_need_displacement_currents) {
   const double relaxation = 80 * 8.8541878188e-12 / 0.2;
   const auto with = [&](const std::string& waveform, const std::string& text = quiet_scene()) {
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(short_pulses_and_high_frequencies_need_displacement_current
                  .contains("charge_relaxation"));
 }
 
-// Fluids that conduct so badly charge their membrane no more slowly than themselves.
+// Fluids of such low conductivity relax no faster than they charge the membrane.
 BOOST_AUTO_TEST_CASE(slow_relaxation_of_the_fluids_is_said) {
   std::string text = si_scene();
   BOOST_TEST(!warnings_of(text).contains("charge_relaxation"));
@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(constant_area_is_a_limit_where_undulations_would_give_some)
              boost::test_tools::tolerance(1e-6));
   BOOST_TEST(found.at("undulations").limit == 0.1 * excess, boost::test_tools::tolerance(1e-6));
   BOOST_TEST(!warnings_of(off, LargestValues{0.0, 0.0, -1.0}).contains("undulations"));
-  // The field alone is expected to make such a tension.
+  // The field by itself is expected to cause such a tension.
   BOOST_TEST(warnings_of(off).contains("undulations"));
   BOOST_TEST(!warnings_of(replaced(off, "reduced_volume = 0.99", "reduced_volume = 0.6")).contains("undulations"));
 }

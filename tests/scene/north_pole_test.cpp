@@ -20,10 +20,10 @@ constexpr int kLowest = 4, kHighest = 64;
 
 struct NamedShape {
   const char* text;
-  bool axisymmetric;  ///< about z, and seen on four longitudes as in its runs
+  bool axisymmetric;  ///< about z; computed on four longitudes, as in a run
 };
 
-/// Every kind.
+/// One shape of every kind.
 const std::vector<NamedShape> kShapes{
     {"kind = 'ellipsoid'\naxes = [1, 1, 1]", true},
     {"kind = 'ellipsoid'\naxes = [1.1, 0.8, 1.7]", false},
@@ -45,7 +45,7 @@ Matrix position_of(const NamedShape& shape, int order) {
 }
 
 struct Reading {
-  double height = 0.0;  ///< of the place at which the history reads V_m: what it reads of V_m = z
+  double height = 0.0;  ///< of the point at which the history reads V_m: its value for V_m = z
   Vector3 centroid;
 };
 
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(place_is_the_same_on_every_shape_at_every_order_up_to_what_
       const Reading reading = reading_of(shape.axisymmetric ? four_longitudes : all_longitudes, position);
       const Matrix left_out = exact[i] - evaluate_harmonics(position, points.theta, points.phi);
       const double error = left_out.rowwise().norm().maxCoeff() + (reading.centroid - expected[i].centroid).norm();
-      // On a slope the height moves more than the line or the surface.
+      // Where the surface slopes, the height changes more than the line or the surface.
       const double bound = 4.0 * error + 1e-12 * exact[i].rowwise().norm().maxCoeff();
       BOOST_TEST(std::abs(reading.height - expected[i].height) <= bound,
                  shape.text << "\nat order " << order << ": " << reading.height << " for " << expected[i].height

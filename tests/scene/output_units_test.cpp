@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(no_scene_changes_a_unit) {
   for (const char* dimension : shown) BOOST_TEST(a.of(dimension).symbol == b.of(dimension).symbol, dimension);
 }
 
-// A unit whose symbol nothing reads would leave numbers dimensionless.
+// A result unit that is not among the accepted units would leave numbers dimensionless.
 BOOST_AUTO_TEST_CASE(every_unit_of_results_is_one_of_its_dimension) {
   const vehd::UnitsScene ones{1.0, 1.0, 1.0, 1.0};
   for (const vehd::Dimension& dimension : vehd::dimensions()) {
@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_has_begun_keeps_its_symbols) {
   BOOST_TEST(!units.of("velocity").is_si());
 }
 
-// Written out once more, by hand.
+// The expected values are written out by hand.
 BOOST_AUTO_TEST_CASE(every_prefix_is_what_its_name_says) {
   const vehd::UnitsScene ones{1.0, 1.0, 1.0, 1.0};
   for (const auto& [prefix, size] : {std::pair{"M", 1e6},

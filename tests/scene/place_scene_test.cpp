@@ -37,7 +37,7 @@ BOOST_AUTO_TEST_CASE(factors_are_what_the_keys_say) {
   places.modes = {{1, 0, 0.5}, {2, -1, 0.3}};
   const vehd::Vector harmonics = vehd::place_factor(places, 4);
   const double theta = 0.7, phi = 0.4, pi = std::acos(-1.0);
-  // Re Y_1^0 and Im Y_2^1 of Eq. (17), by hand.
+  // Re Y_1^0 and Im Y_2^1 of Eq. (17), written out by hand.
   const double expected = 2.0 + 0.5 * std::sqrt(3.0 / (4.0 * pi)) * std::cos(theta) +
                           0.3 * std::sqrt(15.0 / (8.0 * pi)) * std::sin(theta) * std::cos(theta) * std::sin(phi);
   BOOST_TEST(std::abs(factor_at(harmonics, theta, phi) - expected) < 1e-12);
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(properties_reach_the_membrane) {
   BOOST_TEST(vesicle.by_place);
   BOOST_TEST_REQUIRE(vesicle.pump.has_value());
   BOOST_TEST(std::abs(vesicle.pump->at(5.0) + 1.0) < 1e-12);
-  // Its force is that of the places.
+  // Its force is the one with spatially varying coefficients.
   BOOST_TEST(vesicle.effects.empty());
   const vehd::Problem problem = vehd::problem_of(scene);
   BOOST_TEST(problem.symmetry.axisymmetric);
@@ -89,11 +89,11 @@ BOOST_AUTO_TEST_CASE(places_take_part_in_the_symmetry) {
                "0.1\nend_time = 1\n" +
                charged + pump + keys));
   };
-  // About an axis of a sphere that nothing else has.
+  // A sphere has no preferred axis: the axis of the cap is the axis of symmetry.
   const vehd::Problem tilted = problem("axis = [1, 2, 0.5]\n");
   BOOST_TEST(tilted.symmetry.axisymmetric);
   BOOST_TEST(std::abs(std::abs(tilted.frame.axes.col(2).dot(vehd::Vector3(1, 2, 0.5).normalized())) - 1.0) < 1e-9);
-  // The cap has one side, so no mirror is left that changes its ends.
+  // The cap is on one side, so no mirror exchanging its two ends remains.
   for (const vehd::Reflection& g : tilted.symmetry.reflections) BOOST_TEST(g.z > 0);
   const vehd::Problem two =
       problem("[membrane.conductance_by_place]\naxis = [1, 0, 0]\n" + cap + "[membrane]\nconductance = 1\n");
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(harmonics_come_from_a_file) {
       with_appended(charged + "[membrane.pump]\ncurrent = 2\nkind = \"file\"\npath = \"harmonics.txt\"\n");
   const vehd::Scene scene = read(text);
   BOOST_TEST((scene.membrane.pump->modes == std::vector<vehd::HarmonicMode>{{1, 0, 0.5}, {2, -1, 0.3}}));
-  // The effective scene needs the file no more.
+  // The effective scene no longer needs the file.
   BOOST_TEST((parsed(vehd::effective_scene(scene)) == scene));
   write_text(folder / "harmonics.txt", "1 0 0.5\n1 2 0.3\n");
   try {

@@ -11,7 +11,7 @@ namespace {
 
 const std::string in_a_field = "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\n";
 
-/// Whether [poration] with these keys, behind the rest, is refused in one line that says so at line 12 or later.
+/// Whether [poration] with these keys after `before` is refused in one line containing `what`, at line 12 or later.
 bool refuses(const std::string& before, const std::string& keys, const std::string& what) {
   const std::string message = message_of(with_appended(before + "[poration]\n" + keys));
   BOOST_TEST_MESSAGE(message);
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(reactions_reach_the_membrane) {
   BOOST_TEST(std::abs(reaction->rate(1.0, 0.0) + 0.5) < 1e-3);
   BOOST_TEST((parsed(vehd::effective_scene(porosity)) == porosity));
   const vehd::Scene pores = parsed(with_appended(in_a_field + "[poration]\n" + pore_keys));
-  // σ_p of σ_i = 1 and σ_e = 2 is 1/ln 2.
+  // σ_p for σ_i = 1 and σ_e = 2 is 1/ln 2.
   const double pore = 2.0 * std::acos(-1.0) * 0.64 / std::log(2.0) / (0.8 * std::acos(-1.0) + 10.0);
   BOOST_TEST(std::abs(vehd::model_of(pores).vesicles[0].reaction->conductance(0.0).value / (1.5 * pore) - 1.0) < 1e-12);
   BOOST_TEST((parsed(vehd::effective_scene(pores)) == pores));
@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(densities_and_rates_have_units) {
       si_scene() +
       "[poration]\nmodel = \"pores\"\ncreation_rate = \"1e9 1/(m^2 s)\"\ncreation_Vm = \"258 mV\"\nrest_density = "
       "\"1.5e9 1/m^2\"\npore_radius = \"0.8 nm\"\nmembrane_thickness = \"5 nm\"\n");
-  // Of 10 um and 0.5 s.
+  // In units of 10 um and 0.5 s.
   BOOST_TEST(std::abs(scene.poration->creation_rate - 0.05) < 1e-14);
   BOOST_TEST(std::abs(scene.poration->rest_density - 0.15) < 1e-14);
 }
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(every_model_goes_with_several_vesicles_and_displacement_cur
       BOOST_TEST(message_of(with_appended(in_a_field + currents + "[poration]\n" + keys + two)) == "");
     }
   }
-  // Pores conduct as the fluids of each vesicle do.
+  // Pores conduct according to the fluids of their vesicle.
   const vehd::Model model = vehd::model_of(parsed(with_appended(in_a_field + "[poration]\n" + pore_keys + two)));
   BOOST_TEST(model.vesicles[0].reaction->conductance(1.0).value != model.vesicles[1].reaction->conductance(1.0).value);
 }

@@ -5,7 +5,7 @@
 #include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
 
-/// Line 1 is [shape], line 4 [numerics], line 8 the first line that is appended.
+/// Line 1 is [shape], line 4 [numerics], line 8 the first appended line.
 inline std::string with_appended(const std::string& more) {
   return "[shape]\n"
          "kind = \"ellipsoid\"\n"
@@ -49,7 +49,7 @@ inline std::string si_scene() {
 
 inline vehd::Scene parsed(const std::string& text) { return vehd::parse_scene(text, "scene.toml", "/folder"); }
 
-/// Message of the InputError that the text causes; empty if it causes none.
+/// Message of the InputError caused by the text; empty if there is none.
 inline std::string message_of(const std::string& text) {
   try {
     parsed(text);

@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_toml_is_a_text) {
              2.0 * parsed(si_scene()).electric->field[2]);
 }
 
-// The reference scales follow, as if the file said so.
+// The reference scales follow as if the file contained the settings.
 BOOST_AUTO_TEST_CASE(give_whole_tables_and_units) {
   BOOST_TEST((with({"gravity.acceleration=[0, 0, -1]", "fluid.density_difference=1"}).gravity->acceleration ==
               vehd::Triple{0.0, 0.0, -1.0}));
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(messages_name_the_option) {
   BOOST_TEST(problem_of({"flow.rate=1", "flow.waveform.kind=ac", "flow.waveform.frequency=9"})
                  .starts_with("--set flow.waveform.frequency=9: "));
   BOOST_TEST(problem_of({"numerics.dt=1e-12", "numerics.end_time=1"}).starts_with("--set numerics.dt=1e-12: "));
-  // What stands in the file is still found there.
+  // Errors in the file are still reported with their place in it.
   BOOST_TEST(problem_of({"flow.rate=1"}, with_appended("[flow]\nkind = \"shear\"\nrtae = 1\n")) ==
              "scene.toml:10: unknown key \"rtae\" in [flow]; did you mean \"rate\"?");
 }
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(is_given_once) {
   BOOST_TEST(message_of(both) ==
              "scene.toml:7: \"order\" in [numerics] is another name of \"degree\", which is there as well; accepted: "
              "one of them");
-  // A setting replaces the key under whichever name it has.
+  // A setting replaces the key under either of its names.
   for (const char* name : {"degree", "order"}) {
     BOOST_TEST(with({std::string("numerics.") + name + "=10"}).numerics.order == 10, name);
   }
@@ -148,7 +148,7 @@ BOOST_AUTO_TEST_CASE(is_called_in_messages_what_the_file_calls_it) {
              "scene.toml:7: unknown key \"degre\" in [numerics]; did you mean \"degree\"?");
 }
 
-// By the name of the file or by the number.
+// A setting selects one of several vesicles by the name of the file or by number.
 BOOST_AUTO_TEST_CASE(are_for_one_of_several_vesicles) {
   const std::string two = with_appended(
       "[membrane]\nbending_modulus = 1\n[[vesicle]]\nname = \"a.b\"\n[[vesicle]]\nshape.centre = [5, 0, 0]\n");

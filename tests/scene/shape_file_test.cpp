@@ -43,8 +43,8 @@ std::string units_text(const vehd::UnitsScene& units) {
   return text;
 }
 
-/// A run.h5 with snapshots at the times 0, 1, 2, ... 4 of its own, each larger by half than the one before, and V_m in
-/// proportion to the number of the snapshot and one.
+/// A run.h5 with snapshots at its times 0, 1, 2, ... 4, each larger by half than the previous one, and V_m proportional
+/// to the number of the snapshot plus one.
 class StoredRun {
  public:
   explicit StoredRun(const std::string& scene) {
@@ -92,7 +92,7 @@ class StoredRun {
   [[nodiscard]] vehd::InitialMembrane membrane(const std::string& text) const {
     return vehd::initial_membrane(parsed(text));
   }
-  /// The error that the scene causes, with a short name for the file; empty if it causes none.
+  /// The error that the scene causes, with the file name abbreviated; empty if it causes none.
   [[nodiscard]] std::string message(const std::string& text) const {
     try {
       (void)membrane(text);
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(a_snapshot_can_be_scaled_rotated_and_moved_and_its_potentia
   const vehd::Matrix3 rotation = vehd::rotation_matrix({1, 1, 0, 25});
   const Matrix expected = vehd::shifted(vehd::rotated(1.5 * StoredRun::position(0), rotation), {0, 0, 1});
   BOOST_TEST(difference(placed.position, expected) < 1e-13);
-  // V_m at a point of the body is what it was.
+  // V_m at a point of the body is unchanged.
   const vehd::Vector3 before = vehd::Vector3(0.3, -0.5, 0.7).normalized(), after = rotation * before;
   const auto at = [](const Vector& coefficients, const vehd::Vector3& s) {
     return vehd::evaluate_harmonics(coefficients, Vector{{std::acos(s.z())}}, Vector{{std::atan2(s.y(), s.x())}})(0, 0);
@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(units_on_one_side_alone_are_refused_where_they_matter) {
       without.message(without.scene(units, "area = 12\n")) ==
       "scene.toml:10: \"initial_Vm\" in [electric] needs a reference potential, which this scene has and FILE has "
       "not; accepted: a run of a scene with [units], or \"initial_Vm\" zero or steady");
-  // With an area and a potential of its own the scene needs none of the scales.
+  // If the scene states an area and a potential of its own, it needs none of the scales.
   const std::string zero = electric + "initial_Vm = \"zero\"\n";
   for (const StoredRun* run : {&with, &without}) {
     const std::string before = run == &with ? "" : units;

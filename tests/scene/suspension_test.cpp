@@ -13,7 +13,7 @@ BOOST_AUTO_TEST_SUITE(suspension)
 
 namespace {
 
-/// Lines 1 to 7; [suspension] is line 8.
+/// A scene whose lines 1 to 7 are fixed; [suspension] is line 8.
 std::string with(const std::string& keys) {
   return "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.5]\n[numerics]\ndt = 0.1\nend_time = 1.0\norder = 8\n"
          "[suspension]\n" +
@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(vesicles_lie_apart_and_within_the_region) {
   }
   // √(area/4π) of the prolate is above 1.
   BOOST_TEST(vehd::closest_pair(positions).points.gap >= 0.2);
-  // What was placed is the scene, and the same every time.
+  // The effective scene contains the placed vesicles, and placement is reproducible.
   const std::string text = vehd::effective_scene(scene);
   BOOST_TEST(text.find("[suspension]") == std::string::npos);
   BOOST_TEST((parsed(text) == scene));
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(vesicles_lie_apart_and_within_the_region) {
 }
 
 BOOST_AUTO_TEST_CASE(a_volume_fraction_is_that_of_the_region) {
-  // 1.5 · 4π/3 each in a ball of 4π/3 · 125.
+  // Each vesicle takes 1.5 · 4π/3 in a ball of 4π/3 · 125.
   const vehd::Scene scene =
       parsed(with("kind = \"ball\"\nradius = 5\nvolume_fraction = 0.1\norientation = \"aligned\"\n"));
   BOOST_TEST(scene.vesicles.size() == 8);
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(a_volume_fraction_is_that_of_the_region) {
   }
 }
 
-// As the mean of cos² of the angle with any axis says.
+// The mean of cos² of the angle with any axis is checked.
 BOOST_AUTO_TEST_CASE(random_orientations_prefer_none) {
   const vehd::Scene scene = parsed(with("kind = \"box\"\nsize = [60, 60, 60]\ncount = 300\n"));
   vehd::Matrix3 mean = vehd::Matrix3::Zero();

@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(the_area_at_rest_is_given_once) {
              "accepted: one of them");
 }
 
-// κ_c = 1/2, A = 21.48: the logarithm ends at −10 κ_c/A_0.
+// For κ_c = 1/2 and A = 21.48 the logarithm ends at −10 κ_c/A_0.
 BOOST_AUTO_TEST_CASE(a_membrane_that_buckles_is_refused) {
   const std::string text = on + "temperature = 0.1\n";
   BOOST_TEST(problem(text + "reference_tension = -0.2\n") == "");

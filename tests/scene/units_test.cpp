@@ -22,7 +22,7 @@ std::string replaced(std::string text, const std::string& old_part, const std::s
   return text.replace(text.find(old_part), old_part.size(), new_part);
 }
 
-/// Message of the scene in SI units with a part replaced.
+/// Message for the SI scene with a part replaced.
 std::string message_with(const std::string& old_part, const std::string& new_part) {
   return message_of(replaced(si_scene(), old_part, new_part));
 }
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(absent_time_is_the_shortest_that_the_scene_gives_in_si) {
   const std::string start = "[units]\nlength = '10 um'\nviscosity = '1 mPa s'\npotential = '1 V'\n" +
                             with_appended("[fluid]\nviscosity = 1\n");
   const auto electric = [](const std::string& conductivities, const std::string& more) {
-    // A number without a unit says nothing of the time.
+    // A number without a unit does not determine the time.
     const std::string number = more.find("permittivity") == std::string::npos ? "permittivity = 1\n" : "";
     return "[membrane]\ncapacitance = '10 mF/m^2'\n[electric]\nfield = [0, '-4 kV/m', '3 kV/m']\n" + conductivities +
            number + more;
@@ -148,16 +148,16 @@ BOOST_AUTO_TEST_CASE(absent_time_is_the_shortest_that_the_scene_gives_in_si) {
                                    "[electric.waveform]\nkind = 'pulse_train'\nduration = '2 ms'\n"
                                    "period = '50 ms'\n")) == 2e-3,
              tolerance);
-  // Of several the shortest, whatever their order.
+  // The shortest of several times is used, whatever their order.
   const std::string pulse = "[electric.waveform]\nkind = 'pulse'\nduration = '1 us'\n";
   BOOST_TEST(time(start + electric(conducting, "permittivity = '80 eps0'\n" + pulse)) == 1e-6, tolerance);
-  // What has no unit, or is zero, says nothing.
+  // Values that have no unit or are zero do not determine the time.
   BOOST_TEST(time(start + "[membrane]\ncapacitance = 1\n[electric]\nfield = [0, 0, '1 kV/m']\npermittivity = 1\n" +
                   plain + "[electric.waveform]\nkind = 'pulse'\nduration = 1\n") == 0.0);
   BOOST_TEST(time(start + "[flow]\nkind = 'shear'\nrate = '0 1/s'\n[membrane]\nbending_modulus = '1e-18 J'\n") == 1.0,
              tolerance);
   BOOST_TEST(time(start + "[membrane]\ncapacitance = 3\n") == 0.0);
-  // A time that the scene states is left alone.
+  // A time stated in the scene is not replaced.
   BOOST_TEST(time(replaced(start, "[units]\n", "[units]\ntime = '3 s'\n") + electric(conducting, pulse)) == 3.0);
 }
 
@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(numbers_convert_by_the_ratio_of_their_scales) {
   BOOST_TEST(std::isnan(vehd::si_scale(none, "length")));
 }
 
-// Written out once more, by hand: what a prefix or a composed unit is in SI base units.
+// SI base-unit values of prefixes and composed units, written out by hand.
 BOOST_AUTO_TEST_CASE(every_unit_is_what_its_name_says) {
   const std::map<std::string, double> sizes = {{"m", 1},          {"mm", 1e-3},
                                                {"um", 1e-6},      {"nm", 1e-9},
@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(every_unit_is_what_its_name_says) {
     for (const vehd::Unit& unit : dimension.units) {
       const auto size = sizes.find(std::string(unit.symbol));
       BOOST_TEST_REQUIRE((size != sizes.end()), unit.symbol);
-      // A temperature that stands for an energy is k_BT.
+      // A temperature given as a thermal energy is k_BT.
       const bool is_thermal = dimension.name == "thermal energy" && unit.symbol == "K";
       const vehd::Quantity three{3.0, std::string(unit.symbol)};
       BOOST_TEST(three.in_si(unit, 300.0) == 3.0 * (is_thermal ? 1.380649e-23 : size->second),
@@ -253,7 +253,7 @@ BOOST_AUTO_TEST_CASE(a_thermal_energy_is_that_of_the_temperature_of_the_scene) {
   BOOST_TEST(message_of(thermal) ==
              "scene.toml:11: \"bending_modulus\" in [membrane] is the text '20 kBT', but the scene has no temperature; "
              "accepted: \"temperature\" in [units] with the unit K");
-  // The bending time can be what gives the reference time.
+  // The reference time can follow from the bending time.
   const std::string start =
       "[units]\nlength = '10 um'\nviscosity = '1 mPa s'\n" + with_appended("[fluid]\nviscosity = 1\n");
   const std::string bending = "[membrane]\nbending_modulus = '20 kBT'\n";
@@ -264,7 +264,7 @@ BOOST_AUTO_TEST_CASE(a_thermal_energy_is_that_of_the_temperature_of_the_scene) {
              "\"m\"); accepted: m, mm, um, nm");
 }
 
-// One of the scene would be 5e-11 F/m here, and something else with another reference time.
+// A default of 1 in scene units would be 5e-11 F/m here and would change with the reference time.
 BOOST_AUTO_TEST_CASE(a_default_in_units_is_required_beside_units) {
   const std::map<std::string, std::string> lines = {{"membrane.capacitance", "capacitance = "},
                                                     {"fluid.viscosity", "viscosity = \"1 mPa s\"\n[flow]"},
@@ -290,13 +290,13 @@ BOOST_AUTO_TEST_CASE(a_default_in_units_is_required_beside_units) {
       message.starts_with("scene.toml:19: missing key \"permittivity\" in [electric] (of the fluid outside); its "
                           "default of 1 would be 2e-07 F/m; accepted: "),
       message);
-  // A number is a statement, and what has no effect needs none.
+  // An explicit number is accepted, and a key without effect is not required.
   BOOST_TEST(parsed(replaced(si_scene(), "\"80 eps0\"", "2.5")).electric->permittivity == 2.5);
   BOOST_TEST(message_of(replaced(radial, "modes", "base = 1\nmodes")) == "");
   BOOST_TEST(message_of(with_appended("[units]\nlength = '1 um'\n[fluid]\nviscosity = 2\n")) == "");
 }
 
-// Whatever is left out, a scene in SI units is refused or the same in all reference units.
+// Whichever key is omitted, a scene in SI units is either refused or the same in all reference units.
 BOOST_AUTO_TEST_CASE(no_key_that_is_left_out_depends_on_the_reference_scales) {
   std::istringstream lines(si_scene());
   std::vector<std::string> keys;
@@ -357,7 +357,7 @@ BOOST_AUTO_TEST_CASE(reference_scales_need_a_unit_and_a_positive_number) {
              "\"um\"); accepted: m, mm, um, nm");
 }
 
-// Values that cannot be read give no reference scale, which is not the fault of the keys before them that need one.
+// An unreadable value determines no reference scale; earlier keys that need the scale must not be blamed.
 BOOST_AUTO_TEST_CASE(a_value_that_should_give_a_scale_is_to_blame_if_it_cannot_be_read) {
   const std::string text = without_line(without_line(si_scene(), "viscosity = \"1 mPa s\"\npot"), "viscosity = ");
   const auto message = [&](const std::string& viscosity) {

@@ -12,13 +12,13 @@ BOOST_AUTO_TEST_SUITE(vesicles)
 
 namespace {
 
-/// Lines 1 to 7 for all, the first vesicle begins on line 8.
+/// Lines 1 to 7 apply to all vesicles; the first vesicle begins on line 8.
 const std::string kForAll =
     "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 2.0]\n[numerics]\ndt = 0.1\nend_time = 1.0\norder = 8\n";
 
 std::string at(const std::string& centre) { return "[[vesicle]]\nshape.centre = " + centre + "\n"; }
 
-/// Everything that may differ does.
+/// Sets every key that may differ between vesicles.
 const std::string kDifferent =
     "[membrane]\nbending_modulus = 0.1\ncapacitance = 2.0\n[fluid]\nviscosity = 3.0\n[gravity]\nacceleration = [0, 0, "
     "-1]\n"
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(are_refused_where_they_overlap) {
              "scene.toml:11: vesicle \"1\", about (0, 0, 0), has vesicle \"0\" inside" + accepted);
   BOOST_TEST(message_of(kForAll + at("[0, 0, 0]") + at("[2.001, 0, 0]")) ==
              "scene.toml:10: vesicle \"1\" is 0.00076 radii from vesicle \"0\"; accepted: at least 0.001");
-  // As near as that.
+  // A slightly larger gap is accepted.
   BOOST_TEST(message_of(kForAll + at("[0, 0, 0]") + at("[2.01, 0, 0]")).empty());
 }
 
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(may_attract_or_repel_each_other) {
              "scene.toml:10: \"range\" in [contact] is 0.0076 radii of vesicle \"0\"; accepted: at least 0.02");
 }
 
-// The scale follows from the first.
+// The scale follows from the first vesicle.
 BOOST_AUTO_TEST_CASE(have_one_scale_of_length) {
   const std::string scene =
       "[units]\ntime = \"1 s\"\n[shape]\nkind = \"prolate\"\nreduced_volume = 0.9\n[numerics]\ndt = 0.1\nend_time = 1\n"
@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(have_one_scale_of_length) {
   BOOST_TEST(*vehd::alone(read, 1).shape.area == 100e-12 / (length * length), boost::test_tools::tolerance(1e-12));
 }
 
-// Distances so large have no square, and coordinates no digits left for the shape.
+// Such large distances have no square, and coordinates retain no digits for the shape.
 BOOST_AUTO_TEST_CASE(vesicles_beyond_the_digits_of_their_coordinates_are_refused) {
   for (const char* far : {"1e308", "-1e200", "1e40", "1e7"}) {
     const std::string centre = std::string("[0, ") + far + ", 0]";

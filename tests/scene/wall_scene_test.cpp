@@ -15,7 +15,7 @@ constexpr const char* kFloor = "[wall]\npoint = [0, 0, -3]\nnormal = [0, 0, 2]\n
 
 const std::string conducting = "conductivity_in = 1\nconductivity_out = 2\n";
 
-/// Whether a scene with these tables is refused in one line that says so.
+/// Whether a scene with these tables is refused in a one-line message containing `what`.
 bool refuses(const std::string& tables, const std::string& what) {
   const std::string message = message_of(with_appended(tables));
   BOOST_TEST_MESSAGE(message);

@@ -16,7 +16,7 @@ BOOST_AUTO_TEST_SUITE(written_numbers)
 
 namespace {
 
-/// A number as a scene may spell it, and the double nearest to what is written.
+/// A number as spelled in a scene, and the double nearest to it.
 struct Literal {
   std::string text;
   double value;
@@ -73,7 +73,7 @@ std::vector<Literal> literals() {
   return all;
 }
 
-/// The number that value_with_number has put there.
+/// The number inserted by value_with_number.
 double number_in(const vehd::Value& value) {
   struct Number {
     double operator()(bool) const { return std::nan(""); }
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(every_key_reads_the_number_that_is_written_or_refuses_it_by
     for (const Literal& literal : literals()) {
       const std::string value = value_with_number(key, literal.text, unit);
       if (value.empty()) continue;
-      // A text with a unit is decimal.
+      // Text values with a unit use decimal numbers.
       if (key.type == vehd::ValueType::quantity && literal.text != fmt::format("{}", literal.value)) continue;
       const Reading reading = read(key, value);
       BOOST_TEST_CONTEXT(key.table << "." << key.name << " = " << value << "\n" << reading.refusal) {

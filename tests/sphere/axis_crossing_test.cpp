@@ -23,7 +23,7 @@ struct Shape {
   SphereDerivatives nodes;
 };
 
-/// A surface given by its map from the unit sphere, of degree ≤ 5.
+/// A surface of degree ≤ 5, given by its map from the unit sphere.
 template <typename Map>
 Shape shape_of(Map map) {
   Shape shape;
@@ -49,7 +49,7 @@ Vector3 place_above(const Vector3& point, const Shape& shape) {
   return *place;
 }
 
-/// Where the line meets the triangle, if it does.
+/// Height at which the vertical line through the point meets the triangle, if it does.
 std::optional<double> height_on(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& point) {
   Eigen::Matrix2d sides;
   sides << (b - a).head<2>(), (c - a).head<2>();
@@ -59,7 +59,7 @@ std::optional<double> height_on(const Vector3& a, const Vector3& b, const Vector
   return a.z() + shares[0] * (b - a).z() + shares[1] * (c - a).z();
 }
 
-/// Highest point on the line of a polyhedron with very many corners on the surface.
+/// Highest intersection of the vertical line with a fine polyhedron whose corners lie on the surface.
 std::optional<double> height_of_polyhedron(const Vector3& point, const Shape& shape) {
   const SphereTransform transform(kOrder, make_grid(60));
   const SphereGrid& grid = transform.grid();
@@ -89,12 +89,12 @@ const Vector3 kCentre{3.0, -1.0, 2.0};
 
 BOOST_AUTO_TEST_SUITE(axis_crossing)
 
-// M n has the height 1/|M⁻¹ e_z| above its centre.
+// The surface M n has the height 1/|M⁻¹ e_z| above its centre.
 BOOST_AUTO_TEST_CASE(height_of_an_ellipsoid_above_its_centre_is_exact) {
   const Shape shape = shape_of([](const Vector3& n) { return Vector3(kCentre + kStretch * n); });
   const double height = 1.0 / (kStretch.inverse() * Vector3::UnitZ()).norm();
   BOOST_TEST((place_above(kCentre, shape) - kCentre - height * Vector3::UnitZ()).norm() < 1e-13);
-  // Not that of the parameter sphere's pole.
+  // The crossing is not the image of the parameter sphere's pole.
   BOOST_TEST((kStretch * Vector3::UnitZ()).head<2>().norm() > 0.1);
 }
 
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(point_may_lie_anywhere_on_the_line_and_beside_the_surface_t
   BOOST_TEST(!place_on_line({-1.3, 0.0, 0.0}, shape));
 }
 
-// Folded surfaces, which lines leave several times, some of them parametrised with the poles anywhere.
+// Folded surfaces that lines intersect several times, some of them with arbitrary parametrisation poles.
 BOOST_AUTO_TEST_CASE(no_crossing_of_a_random_surface_lies_higher) {
   int n_crossed = 0, n_missed = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(no_crossing_of_a_random_surface_lies_higher) {
                                                                     << expected.value_or(NAN));
       if (!place || !expected) continue;
       BOOST_TEST((*place - point).head<2>().norm() < 1e-10);
-      // A corner of the polyhedron can hide beneath the surface by the sagitta of its sides.
+      // A corner of the polyhedron can lie below the surface by the sagitta of its sides.
       BOOST_TEST(place->z() > *expected - 0.02,
                  "seed " << seed << ", line " << line << ": " << place->z() << " and not " << *expected);
     }
@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(size_and_place_of_the_surface_do_not_matter) {
 }
 
 BOOST_AUTO_TEST_CASE(of_the_poles_of_an_axisymmetric_surface_the_higher_one_counts) {
-  // Both poles of a bowl point the same way.
+  // Both poles of a bowl have normals in the same direction.
   const Shape opens_downwards = shape_of([](const Vector3& n) -> Vector3 {
     return {n.x(), n.y(), 0.2 * n.z() + 1.0 - n.head<2>().squaredNorm()};
   });

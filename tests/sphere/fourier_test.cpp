@@ -15,11 +15,11 @@ struct Case {
   int n_phi, order, rows;
 };
 
-/// Lengths with and without a centre of the quarter circle, and with a large prime.
+/// Lengths with and without a centre of the quarter circle, and with a large prime factor.
 constexpr Case kCases[] = {{4, 1, 5},   {6, 2, 3},    {10, 4, 1},   {18, 8, 7},    {24, 9, 6},   {34, 16, 17},
                            {66, 16, 5}, {74, 32, 33}, {130, 64, 3}, {260, 64, 18}, {270, 130, 5}};
 
-/// Amplitudes of a mode in a row at [mode * stride + row], with room between the modes.
+/// Amplitudes of a mode in a row at [mode * stride + row], with padding between the modes.
 Matrix random_amplitudes(const Case& c) {
   std::srand(5);
   return Matrix::Random(c.rows + 2, 2 * c.order + 1);
@@ -32,7 +32,7 @@ Vector sums_by_definition(const Case& c, const Matrix& amplitudes) {
       double& value = values[row * c.n_phi + k];
       value = amplitudes(row, 0);
       for (int m = 1; m <= c.order; ++m) {
-        // Whole turns taken off, so that the argument is not what rounds.
+        // Reduced by whole periods, so that the argument adds no rounding error.
         const double phase = 2.0 * std::numbers::pi * (m * k % c.n_phi) / c.n_phi;
         value += amplitudes(row, m) * std::cos(phase) + amplitudes(row, c.order + m) * std::sin(phase);
       }
@@ -43,7 +43,7 @@ Vector sums_by_definition(const Case& c, const Matrix& amplitudes) {
 
 constexpr double kSynthesis = 1e-12, kAnalysis = 1e-13;
 
-/// Both ways against the definition and against each other.
+/// Checks synthesis and analysis against the definition and against each other.
 void check_fast(const Case& c) {
   const FastFourier method(c.n_phi, c.order);
   const Matrix amplitudes = random_amplitudes(c);
@@ -55,7 +55,7 @@ void check_fast(const Case& c) {
   BOOST_TEST((found - amplitudes.topRows(c.rows).transpose()).cwiseAbs().maxCoeff() < kAnalysis, c.n_phi);
 }
 
-/// Parts of random amplitudes on a hemisphere, cosines before sines; of all latitudes, the equator last.
+/// Symmetric and antisymmetric parts of random amplitudes on a hemisphere, the equator last.
 struct Parts {
   std::array<Matrix, 2> cosines, sines;  ///< symmetric and antisymmetric: [latitudes x orders]
 
@@ -69,7 +69,7 @@ struct Parts {
     sines[1].row(n_half - 1).setZero();
   }
 
-  /// As random_amplitudes has them, of all latitudes.
+  /// Amplitudes at all latitudes, in the layout of random_amplitudes.
   [[nodiscard]] Matrix together(const Case& c, double sign_of_sines) const {
     Matrix all(c.rows, 2 * c.order + 1);
     for (Index i = (c.rows + 1) / 2 - 1; i >= 0; --i) {
@@ -83,7 +83,7 @@ struct Parts {
   }
 };
 
-/// A block of amplitudes that were found.
+/// One computed amplitude.
 double found_amplitude(const FourierSums& method, const AnalysedAmplitudes& found, int part, int m, bool sine,
                        Index i) {
   return found.data[AnalysedAmplitudes::number(part, m, sine) * found.block + i * method.row_length() + m / 2];
@@ -110,7 +110,7 @@ void check_hemispheres(const Case& c, bool minus_sines) {
   for (Index i = 0; i < n_half; ++i) {
     const bool equator = 2 * i == c.rows - 1;
     for (const int part : {0, 1}) {
-      // There both parts are what the latitude itself has.
+      // At the equator both parts equal the amplitudes of that latitude.
       const int from = equator ? 0 : part;
       const double times = equator ? 1.0 : 2.0;
       for (int m = 0; m <= c.order; ++m) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kOrder = 7;
 
-/// f at the point of the sphere that x is on.
+/// f at the grid direction of x.
 Matrix value(const Matrix& field, const Vector3& x) {
   const double theta = std::acos(x.z() / x.norm()), phi = std::atan2(x.y(), x.x());
   return evaluate_harmonics(field, Vector::Constant(1, theta), Vector::Constant(1, phi));
@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(know_their_originals) {
   BOOST_TEST(!Exchange().any());
   BOOST_TEST(Exchange().original(3) == 3U);
   BOOST_TEST(Exchange().preimage(1, 2) == 2U);
-  // A ring of three about a fourth.
+  // Three bodies in a ring about a fourth.
   std::vector<Exchange::Map> maps;
   for (int turn = 0; turn < 3; ++turn) {
     Exchange::Map map{{{{}, turn, 3}, 1}, {}};
@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(know_their_originals) {
   BOOST_TEST(ring.n_originals(4) == 2U);
   BOOST_TEST(ring.fold() == 3);
   BOOST_TEST(ring.image(2).map.turn == 2);
-  // What 2 does to 0, its original 0 does to 1; what it does to 3 the same to 3.
+  // The action of 2 on 0 is that of its original 0 on 1; its action on 3 is that of 0 on 3.
   BOOST_TEST(ring.preimage(2, 0) == 1U);
   BOOST_TEST(ring.preimage(2, 3) == 3U);
 }

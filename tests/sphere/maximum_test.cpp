@@ -18,7 +18,7 @@ double maximum_on(int grid_order, const Vector& coefficients, double sign = 1.0)
   return maximum(transform.grid(), transform.synthesize_hessian(coefficients), 0, coefficients, sign);
 }
 
-/// Coefficients of degree ≤ 2 of a function of the point on the unit sphere.
+/// Coefficients of degree ≤ 2 of a function on the unit sphere.
 template <typename Function>
 Vector quadratic(Function function) {
   const SphereTransform transform(2, make_grid(2));
@@ -32,7 +32,7 @@ Vector quadratic(Function function) {
 
 BOOST_AUTO_TEST_SUITE(maximum_of_a_field)
 
-// 1 − t² + t/2 with t along an axis is largest on the ring t = 1/4, where it is 17/16; and least at one pole, −1/2.
+// 1 − t² + t/2 with t along an axis has its maximum 17/16 on the ring t = 1/4 and its minimum −1/2 at one pole.
 BOOST_AUTO_TEST_CASE(ring_and_pole_are_found_whatever_the_axis) {
   for (const Vector3& axis : {Vector3{0.0, 0.0, 1.0}, Vector3{1.0, 0.0, 0.0}, Vector3{0.3, -0.5, 0.8}.normalized()}) {
     const Vector field = quadratic([&](const Vector3& x) {
@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(ring_and_pole_are_found_whatever_the_axis) {
   }
 }
 
-// Twice the degree, as runs have it, finds the same hump as a grid ten times as fine.
+// A grid of twice the degree, as in runs, finds the same maximum as a grid ten times as fine.
 BOOST_AUTO_TEST_CASE(no_grid_leaves_its_trace) {
   constexpr int kOrder = 6;
   for (unsigned seed = 1; seed <= 40; ++seed) {
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(no_grid_leaves_its_trace) {
   }
 }
 
-// The node on a broad hump is higher than all nodes around a narrow one, whose top is higher still.
+// The node on a broad hump has a larger value than all nodes around a narrow hump, whose maximum is higher still.
 BOOST_AUTO_TEST_CASE(broad_hump_does_not_hide_a_narrow_one) {
   constexpr int kOrder = 12;
   const SphereTransform transform(kOrder, make_grid(2 * kOrder));

@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(derivatives_agree_with_central_differences_and_laplacian) {
   const SphereTransform transform(order, make_grid(order));
   const Matrix c = random_coefficients(order, 1, 3);
   const SphereDerivatives d = transform.synthesize_hessian(c);
-  // Not captured as they are: clang 14 refuses that of structured bindings.
+  // Not captured directly: clang 14 does not support capturing structured bindings.
   const auto [theta, phi] = grid_angles(transform.grid());
   const double h = 1e-4;
   const auto at = [&, &theta = theta, &phi = phi](double dt, double dp) -> Eigen::ArrayXd {
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(longitudes_of_fast_transforms_are_the_next_without_a_large_
        {std::array{66, 2, 66}, {34, 2, 36}, {82, 2, 84}, {74, 2, 78}, {50, 6, 54}}) {
     BOOST_TEST(fast_longitudes(least, step) == expected);
   }
-  // Turns of a large prime are as many as they are.
+  // If the step itself has a large prime factor, every multiple has it.
   BOOST_TEST(fast_longitudes(40, 34) == 68);
 }
 

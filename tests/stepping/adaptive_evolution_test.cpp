@@ -30,7 +30,7 @@ EvolutionSetup setup_of(const Model& model, const Matrix& position, double toler
   return setup;
 }
 
-/// The same in steps of dt at the degree of the position.
+/// Setup with steps of fixed size dt at the degree of the position.
 EvolutionSetup fixed_setup(const Model& model, const Matrix& position, double dt) {
   EvolutionSetup setup = setup_of(model, position, 0.0, 1.0);
   setup.settings.order = order_of(position.rows());
@@ -88,14 +88,14 @@ BOOST_AUTO_TEST_CASE(steps_are_the_same_bit_for_bit_however_many_threads_have_no
     State state;
     int evaluations = 0, iterations_flow = 0, iterations_electric = 0;
   };
-  // Without any symmetry: every sum over threads would show.
+  // Without any symmetry, so that a dependence on the number of threads would show in any sum.
   const Matrix position = asymmetric_shape(10);
   const auto steps_with = [&](int threads) {
     const ThreadCount count(threads);
     Instruments instruments;
     Evolution evolution(setup_of(field_model(), position, 1e-2, 1.0), {StartMembrane{position}}, instruments);
     evolution.evaluate_start();
-    // Of more threads share each node.
+    // At higher degrees threads share each node.
     BOOST_TEST_REQUIRE(evolution.order(0) <= 16);
     Steps steps;
     for (int i = 0; i < 3; ++i) {
@@ -140,15 +140,15 @@ BOOST_AUTO_TEST_CASE(tolerance_is_what_a_field_driven_vesicle_gets) {
 }
 
 BOOST_AUTO_TEST_CASE(degree_follows_the_spectrum_up_and_down) {
-  // The prolate starts smooth; the field makes it change fast, and what is left at the end is smooth again.
+  // The prolate starts smooth; the field makes it change fast, and at the end it is smooth again.
   const Result result = run_to(field_model(), prolate(kHighestOrder), 1e-3, 70.0);
   BOOST_TEST(result.lowest_order < 16);
   BOOST_TEST(result.highest_order > 20);
 }
 
 BOOST_AUTO_TEST_CASE(degree_rises_where_the_grid_cannot_be_moved_without_it) {
-  // Its spectrum ends below the lowest degree, so that the shape seems resolved. Nearly a sphere: the area that another
-  // grid of that degree gives it needs a much larger change of the shape. A start has the degree of its tension.
+  // Its spectrum ends below the lowest degree, so that the shape seems resolved. It is nearly a sphere: restoring the
+  // area on another grid of that degree needs a much larger change of the shape. A start has the degree of its tension.
   const EvolutionSetup setup = setup_of(relaxation_model(0.1), rippled(0.04, 0.05), 1e-6, 1e-2);
   Instruments instruments;
   Evolution start(setup, {StartMembrane{rippled(0.04, 0.05)}}, instruments);
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(degree_rises_where_the_grid_cannot_be_moved_without_it) {
 }
 
 BOOST_AUTO_TEST_CASE(degree_of_the_start_resolves_its_tension) {
-  // At degree 8, where the ellipsoid has degree 1, it is wrong by 0.008.
+  // At degree 8, although the ellipsoid has degree 1, the tension has an error of 0.008.
   const auto tension_at_start = [](double tolerance) {
     const Matrix position = ellipsoid(kHighestOrder, {1.0, 1.0, 1.9621762549176331});
     Instruments instruments;
@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(degree_of_the_start_resolves_its_tension) {
 }
 
 BOOST_AUTO_TEST_CASE(degree_of_the_start_resolves_its_charge) {
-  // Shape and V_m of the start have no degree above 1, and the charge on the prolate has them all.
+  // Shape and V_m at the start have no degree above 1, but the charge on the prolate has all degrees.
   const auto charge_at_start = [](double tolerance) {
     const Matrix position = prolate(kHighestOrder);
     Instruments instruments;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kFrequency = 0.5;
 constexpr double kEnd = 6.0;
-/// C R (1/σ_i + 1/(2σ_e)) of the sphere below.
+/// Charging time C R (1/σ_i + 1/(2σ_e)) of the sphere below.
 constexpr double kTime = 1.25;
 
 Model sphere_in_alternating_field() {
@@ -28,13 +28,13 @@ Model sphere_in_alternating_field() {
   return model;
 }
 
-/// V_m at the pole with 3/2 E cos(ωt) charging it, once what it was at first has died away.
+/// V_m at the pole charged by 3/2 E cos(ωt), after the initial transient has decayed.
 double settled(double time) {
   constexpr std::complex<double> rate(0.0, 2.0 * std::numbers::pi * kFrequency);
   return std::real(1.5 * std::exp(rate * time) / (1.0 + kTime * rate));
 }
 
-/// From what it was at another time.
+/// V_m at the pole, given its value at the time `from`.
 double exact(double potential, double from, double time) {
   return settled(time) + (potential - settled(from)) * std::exp(-(time - from) / kTime);
 }
@@ -42,7 +42,7 @@ double exact(double potential, double from, double time) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(no_step_and_no_moment_leaves_more_than_its_share_of_the_tolerance) {
-  // What sweeps converge to is wrong by more than they leave: the rule does not resolve the cosine.
+  // The limit of the sweeps has a larger error than the sweeps leave: the rule does not resolve the cosine.
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
     EvolutionSetup setup;
     setup.model = sphere_in_alternating_field();

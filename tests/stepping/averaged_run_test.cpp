@@ -23,7 +23,7 @@ Model averaged_model(double frequency) {
   return model;
 }
 
-/// The same field, every period resolved.
+/// The same field with every period resolved.
 Model resolved_model(double frequency) {
   Model model = averaged_model(frequency);
   model.electric->averaged_frequency.reset();
@@ -31,7 +31,7 @@ Model resolved_model(double frequency) {
   return model;
 }
 
-/// Extents across and along the field, whatever the parametrisation.
+/// Extents across and along the field, independent of the parametrisation.
 Vector extents_after(const Model& model, const Matrix& position, const Vector& potential, int time_order, double dt,
                      int n_steps) {
   const Discretisation discretisation = symmetric_discretisation(model, position, time_order);
@@ -52,7 +52,7 @@ double prolate_rate_of(const Model& model, const Matrix& position) {
   return transform.analyze(radial)(coefficient_index(2, 0), 0);
 }
 
-/// ρ = 1 + amplitude Y_{4,0} with an area of 4π a²: excess area that degree 2 can take.
+/// ρ = 1 + amplitude Y_{4,0} with an area of 4π a²: the excess area is available to degree 2.
 Matrix nearly_a_sphere(int order, double radius, double amplitude) {
   const SphereTransform transform(order, make_grid(2 * order));
   const Vector rho =
@@ -77,11 +77,11 @@ BOOST_AUTO_TEST_CASE(resolved_shapes_approach_the_averaged_one_as_the_frequency_
   };
   for (const double frequency : frequencies) {
     const Model averaged = strong(averaged_model(frequency));
-    // An eighth of a period after whole ones, where the ripple is largest.
+    // An eighth of a period after a whole number of periods, where the ripple is largest.
     const double end = (0.1 * frequency + 0.125) / frequency;
     const Vector mean = extents_after(averaged, position, {}, 4, end / 40, 40);
     BOOST_TEST(std::abs(mean[1] - extents_after(averaged, position, {}, 1, end, 0)[1]) > 0.01, mean[1]);
-    // Beyond its transients from the start: V_m is the real part of the amplitude there.
+    // The start is free of transients: V_m is the real part of the amplitude there.
     const Discretisation discretisation = symmetric_discretisation(averaged, position);
     const Vector potential = evaluated(averaged, discretisation, start(averaged, discretisation, position, 1.0))
                                  .fields.potential_amplitude.col(0);
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(resolved_shapes_approach_the_averaged_one_as_the_frequency_
     differences.push_back(max_difference(mean, resolved));
   }
   BOOST_TEST(std::abs(differences[0] / differences[1] - 2.0) < 0.5, differences[0] << ", " << differences[1]);
-  // At 100 periods in the time of the shape.
+  // Scaled to 100 periods in the time of the shape.
   BOOST_TEST(differences[1] * frequencies[1] / (100.0 / kShapeTime) < 1e-3);
 }
 

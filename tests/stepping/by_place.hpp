@@ -5,7 +5,7 @@
 
 #include "tests/support/runs.hpp"
 
-/// Membranes that differ from place to place.
+/// Membranes whose material varies along the surface.
 namespace vehd::testing {
 
 inline const double kEverywhere = std::sqrt(4.0 * std::numbers::pi);
@@ -34,7 +34,7 @@ inline State start_by_place(const Model& model, const Discretisation& discretisa
   return start_by_place(model, discretisation, std::vector{position}, dt, std::vector{material}, steady);
 }
 
-/// The material that the parameters of a model say, everywhere.
+/// The material given by the parameters of a model, uniform over the membrane.
 inline MembraneMaterial same_everywhere(const VesicleModel& vesicle, int order, double curvature) {
   const auto uniform = [&](double value) -> Vector { return value * kEverywhere * harmonic(order, 0, 0); };
   MembraneMaterial material;

@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(a_field_that_jumps_moves_the_potential_and_not_the_charges)
   Instruments instruments;
   const SolvedFields before = solve_fields(model, discretisation, end, instruments, nullptr, Limit::before);
   const SolvedFields after = solve_fields(model, discretisation, end, instruments, nullptr, Limit::after);
-  // Without charges a field E across the sphere makes V_m of the two dielectrics and C_m in series:
+  // Without charges a field E across the sphere gives V_m by the two dielectrics and C_m in series:
   // 3ε_iε_e a E cos θ/((2ε_e + ε_i) a C_m + 2ε_iε_e).
   const double out = 0.3, in = 0.18;
   const double jump = 3.0 * in * out / ((2.0 * out + in) + 2.0 * in * out);
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(alternation_of_a_frozen_sphere_is_followed_at_every_order) 
   const SphereInAcField exact =
       sphere_in_ac_field(electric_parameters(averaged, averaged.vesicles[0]), averaged.vesicles[0].charging, 1.0);
   model.electric->waveform = Waveform::alternating(1.0, frequency, 0.0);
-  // The charges of the closed form: no transient is left.
+  // Starts from the charges of the closed form, so that there is no transient.
   const double in = 0.18, out = 0.3;
   const Vector cosine = sphere(4).col(2);
   const double inner = (exact.potential - in * exact.inside).real();
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(alternation_of_a_frozen_sphere_is_followed_at_every_order) 
       State state = start(model, discretisation, sphere(4), 2.0 / n_steps);
       state.vesicles[0].transmembrane_potential = inner * cosine;
       state.vesicles[0].free_charge = sum * cosine;
-      // After a whole period the field and all else are as at the start.
+      // After a whole period the field and the state are as at the start.
       state = run(model, discretisation, state, 2.0 / n_steps, n_steps);
       errors[level] = max_difference(state.vesicles[0].transmembrane_potential, inner * cosine) +
                       max_difference(state.vesicles[0].free_charge, sum * cosine);
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(amplitudes_of_the_averaged_field_alternate_as_the_charges_d
 
 namespace {
 
-/// Two vesicles, one above the other, with fluids of their own.
+/// Two vesicles, one above the other, with different fluids.
 struct TwoVesicles {
   Model model = with_vesicles(relaxing_model(), 2);
   std::vector<Matrix> shapes;
@@ -208,7 +208,7 @@ BOOST_AUTO_TEST_CASE(copies_far_apart_move_as_one_vesicle) {
   const VesicleState one = run(model, alone, start(model, alone, shape, dt), dt, 2).vesicles[0];
   for (std::size_t a = 0; a < 3; ++a) {
     const VesicleState& vesicle = all.vesicles[a];
-    // Of coordinates of 1e4 rounding leaves 1e-12.
+    // With coordinates of 1e4 rounding leaves 1e-12.
     const Matrix moved = vesicle.position - (shapes[a] - shape);
     BOOST_TEST(max_difference(moved, one.position) < 1e-8);
     BOOST_TEST(max_difference(vesicle.transmembrane_potential, one.transmembrane_potential) < 1e-8);
@@ -229,7 +229,7 @@ BOOST_AUTO_TEST_CASE(steady_charges_of_two_vesicles_do_not_change) {
     BOOST_TEST(fields.potential.norm() > 0.5);
     BOOST_TEST(found.vesicles[a].rate.transmembrane_potential.norm() < 1e-4 * fields.potential.norm());
     BOOST_TEST(found.vesicles[a].rate.free_charge.norm() < 1e-4 * fields.potential.norm());
-    // K_k E_k = G_m V of both faces.
+    // K_k E_k = G_m V on both faces.
     const double conductance = model.vesicles[a].charging.conductance;
     BOOST_TEST(max_difference(
                    fields.free_charge_out + fields.free_charge_in,

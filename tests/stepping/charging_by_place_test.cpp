@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kField = 0.7, kInside = 1.0, kOutside = 2.0;
 
-/// A frozen sphere with a pump that alternates.
+/// A frozen sphere with an alternating pump.
 Model pumped_model() {
   Model model;
   set_electric(model, {{0.0, 0.0, kField}, kInside, kOutside, 1.0}, {0.8, 0.5});
@@ -29,14 +29,14 @@ Model pumped_model() {
   return model;
 }
 
-/// V_m over a sphere of radius 1 by harmonics of the potentials on both sides: nothing is shared with the solver but
-/// the transform.
+/// V_m over a sphere of radius 1 by harmonics of the potentials on both sides: only the transform is shared with the
+/// solver.
 class PumpedSphere {
  public:
   PumpedSphere(int order, MembraneMaterial material)
       : transform_(order, make_grid(2 * order)), order_(order), material_(std::move(material)) {}
 
-  /// What flows onto the inner face, −σ_i ∂φ_i/∂n: V_l = A_l − B_l + E δ_l1, and one current on both sides.
+  /// Current onto the inner face, −σ_i ∂φ_i/∂n: V_l = A_l − B_l + E δ_l1, with equal currents on both sides.
   [[nodiscard]] Vector current(const Vector& potential) const {
     Vector result = potential;
     result[coefficient_index(1, 0)] -= 1.5 * kField * std::sqrt(4.0 * std::numbers::pi / 3.0);
@@ -54,7 +54,7 @@ class PumpedSphere {
         Vector((on_grid(current(potential)) - leak).cwiseQuotient(on_grid(material_.capacitance))));
   }
 
-  /// Where the rate is zero: one linear system.
+  /// Steady V_m, at which the rate is zero: one linear system.
   [[nodiscard]] Vector steady(double pump) const {
     const Index n = n_coefficients(order_);
     const auto unweighted = [&](const Vector& potential) -> Vector {
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(a_sphere_is_followed_at_every_order) {
   };
   const Vector exact = after_runge_kutta(PumpedSphere(kOrder, material), *model.vesicles[0].pump,
                                          Vector::Zero(n_coefficients(kOrder)), kEnd, 800);
-  // Beside the integrator the layers' own error of this degree, 5e-10, would be seen.
+  // A comparison with the integrator would include the layers' own error of this degree, 5e-10.
   const Vector limit = reached(5, 64);
   BOOST_TEST(max_difference(limit, exact) < 2e-9);
   for (int order = 1; order <= 5; ++order) {
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(the_steady_potential_is_that_of_a_dense_solve) {
   const State state = start_by_place(model, discretisation, sphere(kOrder), 1.0, electric_material(kOrder), true);
   const Vector exact = PumpedSphere(kOrder, electric_material(kOrder)).steady(1.0);
   BOOST_TEST(max_difference(state.vesicles[0].transmembrane_potential, exact) < 1e-9);
-  // From another degree the truncation shows.
+  // A solution of another degree shows the truncation error.
   const Vector finer = PumpedSphere(18, electric_material(kOrder)).steady(1.0);
   BOOST_TEST(max_difference(resize_order(finer, kOrder), exact) < 1e-8);
 }
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(several_vesicles_have_each_their_own) {
     BOOST_TEST(max_difference(by_place.vesicles[a].transmembrane_potential,
                               uniform.vesicles[a].transmembrane_potential) < 1e-10);
   }
-  // One that pumps has the V_m of one alone, but for the field of its neighbour.
+  // The pump changes the V_m of its own vesicle and, through its field, weakly that of the neighbour.
   MembraneMaterial pumping = same;
   pumping.pump_current = harmonic(kOrder, 1, 0);
   model.vesicles[0].pump.emplace();
@@ -196,7 +196,7 @@ BOOST_AUTO_TEST_CASE(several_vesicles_have_each_their_own) {
 }
 
 BOOST_AUTO_TEST_CASE(what_differs_rides_with_the_membrane) {
-  // In a shear flow that turns the membrane by half a radian.
+  // A shear flow turns the membrane by half a radian.
   constexpr int kOrder = 10;
   const Model model = shear_model();
   const Matrix position = ellipsoid(kOrder, {1.0, 1.0, 1.2});

@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_SUITE(coarsening)
 
 namespace {
 
-/// Adds nothing, and fails as a solve would wherever its condition holds.
+/// Adds no forcing; throws, as a failing solve would, if its condition holds.
 class Unsolvable : public ExplicitEffect {
  public:
   using Condition = std::function<bool(const EffectInput&)>;
@@ -55,7 +55,7 @@ EvolutionSetup setup_of(const Model& model, const Matrix& position, double toler
   return setup;
 }
 
-/// From a state whose degree or quadrature is finer than need be.
+/// Evolution from a state whose degree or quadrature is finer than necessary.
 Evolution evolution_from(const EvolutionSetup& setup, const Matrix& position, std::int64_t quadrature_level,
                          Instruments& instruments) {
   const double dt = setup.control.tolerance > 0.0 ? 0.0 : setup.control.largest;
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(degree_that_cannot_be_lowered_stays_and_the_run_goes_on) {
     for (int i = 0; i < kSteps; ++i) BOOST_REQUIRE_NO_THROW(evolution.step(kEvents));
     BOOST_TEST((evolution.order(0) < kOrder) == possible);
     BOOST_TEST(attempts > 0);
-    // What fails is not tried at every step.
+    // A coarsening that fails is not tried at every step.
     if (!possible) BOOST_TEST(attempts <= kSteps / 2);
   }
 }
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(quadrature_that_cannot_be_coarsened_stays_and_the_run_goes_
     int attempts = 0;
     const Model model = model_with([&](const EffectInput& input) {
       if (input.limit != Limit::after) return false;
-      // A second time at the same place: with another quadrature.
+      // A second evaluation at the same time has another quadrature.
       const bool again = input.time == solved_time;
       solved_time = input.time;
       if (again) ++attempts;
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(degree_that_cannot_be_raised_ends_the_run_with_that_reason)
   const auto run_until_it_fails = [&] {
     for (int i = 0; i < 1000; ++i) {
       evolution.step({{}, 70.0});
-      // The steps before it stops are smaller ones, and each is resolved.
+      // The steps before the run stops are smaller, and each is resolved.
       BOOST_TEST_REQUIRE(evolution.truncation() <= thresholds::truncation_share * setup.control.tolerance);
       BOOST_TEST_REQUIRE(evolution.order(0) <= solvable);
     }
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(degree_that_cannot_be_raised_ends_the_run_with_that_reason)
   });
   const double reached = evolution.state().time;
   BOOST_TEST(reached > begun);
-  // Nothing was lost: once the higher degree can be solved for, the same evolution goes on.
+  // The failure is not final: once the higher degree can be solved for, the same evolution goes on.
   solvable = kHighest;
   evolution.step({{}, 70.0});
   BOOST_TEST(evolution.state().time > reached);

@@ -38,8 +38,8 @@ BOOST_AUTO_TEST_CASE(area_and_volume_do_not_drift_in_shear) {
 }
 
 BOOST_AUTO_TEST_CASE(time_error_falls_with_at_least_first_order) {
-  // A prolate in the field of Example 2; extents and V_m do not depend on the grid. At p = 8 what the degrees leave out
-  // of the energy is as large as the difference of two steps.
+  // A prolate in the field of Example 2; extents and V_m do not depend on the grid. At p = 8 the truncation error of
+  // the energy is as large as the difference of two steps.
   const int order = 16;
   const Discretisation discretisation = discretisation_of(order);
   const Model model = field_model();

@@ -19,7 +19,7 @@ namespace {
 constexpr int kOrder = 6;
 const Isometry kInversion{{-1, -1, -1}};
 
-/// Small enough to stand beside its images, without any symmetry of its own.
+/// Small enough to fit beside its images, without any symmetry of its own.
 Matrix small_shape(const Vector3& place) { return translated(0.7 * asymmetric_shape(kOrder), place); }
 
 std::vector<Matrix> images_of(const Matrix& shape, const std::vector<Isometry>& maps) {
@@ -40,14 +40,14 @@ State start_of(const Model& model, const std::vector<Matrix>& shapes) {
   return state;
 }
 
-/// Each vesicle in a fluid of its own, in a field; where it charges and bends is up to the caller.
+/// Vesicles with fluids of their own in a field; the caller sets charging and bending.
 Model viscous_model(std::size_t n) {
   Model model = field_model();
   model.vesicles[0].viscosity_ratio = 3.0;
   return with_vesicles(model, n);
 }
 
-/// Where a run ends that uses the symmetry or does not, with what it took.
+/// End of a run with or without use of the symmetry, and the work of the run.
 struct End {
   State state;
   Evaluation evaluation;
@@ -90,7 +90,7 @@ double largest_difference_of(const std::vector<VesicleDiagnostics>& a, const std
         &VesicleDiagnostics::Vm_north, &VesicleDiagnostics::q_north, &VesicleDiagnostics::tension_max,
         &VesicleDiagnostics::bending_energy_scaled}) {
     for (std::size_t v = 0; v < a.size(); ++v) {
-      // A line that misses the membrane has no pole.
+      // An axis that misses the membrane has no pole.
       const double one = a[v].*column, other = b[v].*column;
       if (std::isfinite(one) || std::isfinite(other)) largest = std::max(largest, std::abs(one - other));
     }
@@ -106,12 +106,12 @@ double largest_difference_of(const std::vector<VesicleDiagnostics>& a, const std
   return largest;
 }
 
-/// What is left of the work of operators and of pairs.
+/// Remaining shares of the work of operators and of pairs.
 struct Work {
   double kernels, pairs;
 };
 
-/// The same run with and without exchange: the same numbers, and of operators and pairs this share of the work.
+/// Checks that exchange changes no number of a run and leaves this share of the work of operators and of pairs.
 void check_same_run(const Model& model, const std::vector<Matrix>& shapes, const std::string& text, const Work& share,
                     const Way& way = {}, double most = 1e-9) {
   const Symmetry symmetry = find_symmetry(model, start_of(model, shapes));
@@ -170,7 +170,7 @@ BOOST_AUTO_TEST_CASE(four_that_two_mirrors_exchange) {
                  "vesicles exchanged by mirror x and mirror y and half turn about z", {0.25, 0.25}, {.time_order = 1});
 }
 
-// The middle one is the image of itself.
+// The middle vesicle is its own image.
 BOOST_AUTO_TEST_CASE(two_on_both_sides_of_a_third) {
   std::vector<Matrix> shapes = images_of(small_shape({1.9, 0.3, 1.2}), {kInversion});
   shapes.push_back(ellipsoid(kOrder, {0.8, 0.6, 0.7}));
@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(two_on_both_sides_of_a_third) {
   const Symmetry symmetry = find_symmetry(model, start_of(model, shapes));
   BOOST_TEST(symmetry_text(symmetry) == "vesicles exchanged by inversion");
   BOOST_TEST((symmetry.exchange.originals() == std::vector<std::size_t>{0, 0, 2}));
-  // Of six blocks between two of them those from 0 to 1 and 2 and from 2 to 0.
+  // Of the six blocks between two vesicles, those from 0 to 1 and 2 and from 2 to 0 remain.
   check_same_run(model, shapes, "vesicles exchanged by inversion", {2.0 / 3.0, 0.5});
 }
 

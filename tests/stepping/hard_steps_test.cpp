@@ -10,7 +10,7 @@ using namespace vehd::testing;
 
 namespace {
 
-/// The same surface with its nodes drawn towards +z: n ↦ (n + a ẑ)/|n + a ẑ| of the parameter sphere.
+/// The same surface with its nodes shifted towards +z: n ↦ (n + a ẑ)/|n + a ẑ| of the parameter sphere.
 Matrix crowded(int order, const Vector3& axes, double a) {
   const SphereTransform transform(order, make_grid(3 * order));
   Matrix directions = grid_directions(transform.grid());
@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(steps_that_grow_and_shrink_by_ten_do_no_harm) {
   const VesicleDiagnostics even = evaluated(model, discretisation, steady).diagnostics;
   BOOST_TEST(std::abs(state.time - steady.time) < 1e-12);
   BOOST_TEST(std::abs(jumping.area_drift) < 1e-8);
-  // First order: as far from the even steps as these are from the truth, some percent.
+  // First order: uneven steps differ from the even ones by about the error of these, a few percent.
   BOOST_TEST(std::abs(jumping.Vm_north / even.Vm_north - 1.0) < 0.05);
   BOOST_TEST(std::abs(jumping.bending_energy_scaled / even.bending_energy_scaled - 1.0) < 0.01);
 }
@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(a_badly_distorted_grid_of_a_good_shape_gives_the_same_motio
     const State state = run(model, discretisation, start(model, discretisation, position, 0.02), 0.02, 3);
     return evaluated(model, discretisation, state).diagnostics;
   };
-  // Area elements at the poles differ by a factor of some 40.
+  // Area elements at the poles differ by a factor of about 40.
   const VesicleDiagnostics distorted = after(crowded(order, axes, 0.4));
   const VesicleDiagnostics good = after(ellipsoid(order, axes));
   BOOST_TEST(std::abs(distorted.extent_z / good.extent_z - 1.0) < 1e-4);

@@ -26,7 +26,7 @@ EvolutionSetup setup_of(const Model& model, const Matrix& position) {
 BOOST_AUTO_TEST_SUITE(jump)
 
 BOOST_AUTO_TEST_CASE(both_sides_of_a_switch_are_those_of_the_forcing_that_holds_there) {
-  // Just before the end of a pulse everything is as with a field that stays, just after it as without one.
+  // Just before the end of a pulse the fields are those of a constant field, just after it those without a field.
   const Matrix position = prolate(10);
   Model pulse = field_model(), constant = field_model(), off = field_model();
   pulse.electric->waveform = Waveform::pulse(1.0, 0.0, 4 * kDt);

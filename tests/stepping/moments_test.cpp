@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(snapshots_are_taken_within_the_steps_at_their_times) {
   BOOST_TEST(run.step_times.size() < run.moments.size());
   for (std::size_t i = 0; i < run.moments.size(); ++i) {
     BOOST_TEST(std::abs(run.moments[i].state.time - kFrom - kEvery * static_cast<double>(i)) < 1e-12);
-    // Hundreds of them in a step would fill the memory with operators.
+    // Keeping the operators of hundreds of them within a step would fill the memory.
     BOOST_TEST(run.moments[i].evaluation.vesicles[0].membrane == nullptr);
   }
 }
@@ -105,15 +105,15 @@ BOOST_AUTO_TEST_CASE(moments_within_a_step_are_as_exact_as_its_end) {
         BOOST_TEST(std::abs(d.*member / (e.*member) - 1.0) < 2.0 * kTolerance,
                    "order " << time_order << ", time " << times[i] << ": " << d.*member << " for " << e.*member);
       }
-      // Within a step area and volume are held as at its end.
+      // Within a step, area and volume are held as accurately as at its end.
       BOOST_TEST(std::abs(d.area_drift) < 1e-8);
       BOOST_TEST(std::abs(d.volume_drift) < 1e-8);
     }
   }
 }
 
-// A size that would be too large for a snapshot is none for a step without one, and what the polynomial nearly tells is
-// found by a step beside it.
+// A snapshot must not reduce the step size: if the polynomial of the step is not accurate enough, the state at the
+// snapshot is corrected.
 BOOST_AUTO_TEST_CASE(steps_with_a_snapshot_are_what_they_are_without_it) {
   const Matrix position = start_shape();
   EvolutionSetup setup = setup_of(field_model(), position, highest_time_order);
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(steps_with_a_snapshot_are_what_they_are_without_it) {
 }
 
 BOOST_AUTO_TEST_CASE(moments_know_what_has_died_away_since_the_start) {
-  // An ellipsoid has wrinkles of its tension that relax in a small part of the first step.
+  // The tension of an ellipsoid has wrinkles that relax in a small part of the first step.
   const Matrix position = ellipsoid(24, {1.0, 1.0, 1.96});
   EvolutionSetup setup = setup_of(relaxation_model(1.0), position, 4);
   setup.control.tolerance = 1e-2;
@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(a_snapshot_at_the_end_of_a_step_is_taken_there) {
     if (evolution.state().time == 0.5) BOOST_TEST(step.at_snapshot);
     if (step.at_snapshot) ++n_ends;
   }
-  // 0.5, where the field is switched, and the end; the others lie within steps.
+  // Only 0.5, at which the field is switched, and the end are ends of steps; the others lie within steps.
   BOOST_TEST(n_ends == 2);
   BOOST_TEST(n_moments == 2);
 }

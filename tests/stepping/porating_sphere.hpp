@@ -9,7 +9,7 @@
 
 namespace vehd::testing {
 
-/// Runge and Kutta's rule of order four for y' = rate(y).
+/// Classical Runge–Kutta rule of order four for y' = rate(y).
 template <typename Rate>
 Vector runge_kutta_step(const Vector& y, double dt, const Rate& rate) {
   const Vector a = rate(y), b = rate(y + 0.5 * dt * a), c = rate(y + 0.5 * dt * b), d = rate(y + dt * c);
@@ -17,7 +17,7 @@ Vector runge_kutta_step(const Vector& y, double dt, const Rate& rate) {
 }
 
 /// V_m and s over a sphere of radius 1 in a field along its axis, by Legendre series of the potentials on both sides
-/// and an explicit rule in time: nothing is shared with the solver but the functions of one point.
+/// and an explicit rule in time: only the pointwise functions are shared with the solver.
 class PoratingSphere {
  public:
   struct Parameters {
@@ -58,7 +58,7 @@ class PoratingSphere {
   [[nodiscard]] Vector rate(const Vector& y) const {
     const Index n = y.size() / 2;
     const Vector potential = y.head(n);
-    // φ_i = A_l r^l, φ_e = B_l r^−(l+1) − E r cos θ; V_l = A_l − B_l + E δ_l1, and one current on both sides.
+    // φ_i = A_l r^l, φ_e = B_l r^−(l+1) − E r cos θ; V_l = A_l − B_l + E δ_l1, with equal currents on both sides.
     Vector current = series(potential);
     for (Index l = 0; l < n; ++l) {
       const double order = static_cast<double>(l);

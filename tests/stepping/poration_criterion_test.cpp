@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(a_sphere_porates_when_and_where_its_closed_form_says) {
   for (const double share : {0.2, 0.632, 0.9}) {
     model.vesicles[0].criterion = PorationCriterion{.potential = share * 1.5 * field * radius};
     const double exact = -tau * std::log(1.0 - share);
-    // Seven steps within the charging time, none of which ends there.
+    // Seven steps per charging time, none of which ends at the exact time.
     const EvolutionSetup setup = fixed_setup(model, radius * sphere(4), 4, tau / 7.0);
     const VesicleDiagnostics d = diagnostics_at(setup, radius * sphere(4), 3.0 * tau);
     BOOST_TEST(std::abs(d.poration_time / exact - 1.0) < 2e-5, share << ": " << d.poration_time << " " << exact);
@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(a_field_that_jumps_may_meet_it_with_its_tension_at_once) {
   model.vesicles[0].criterion = PorationCriterion{.tension = 1.0};
   model.electric->waveform = Waveform::pulse(1.0, 0.02, 1.0);
   model.electric->field *= 10.0;
-  // The inside conducts better: the field draws the membrane out.
+  // The inside conducts better, so the field stretches the membrane.
   model.vesicles[0].inside.conductivity = 20.0;
   const EvolutionSetup setup = fixed_setup(model, prolate(8), 1, 0.01);
   const VesicleDiagnostics d = diagnostics_at(setup, prolate(8), 0.05);

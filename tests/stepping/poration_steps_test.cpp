@@ -16,8 +16,8 @@ using namespace vehd::testing;
 
 namespace {
 
-/// A reaction and how long it is followed: pores from their creation to a conductance that discharges the membrane, a
-/// porosity as long as it rises everywhere, for where it begins to fall its second derivative jumps.
+/// A reaction and how long it is followed: pores from their creation until their conductance discharges the membrane, a
+/// porosity as long as it rises everywhere, since its second derivative jumps where it begins to fall.
 struct Case {
   std::shared_ptr<const PorationReaction> reaction;
   double end;
@@ -41,7 +41,7 @@ Model frozen_model(std::shared_ptr<const PorationReaction> reaction, double fiel
 constexpr double start_potential = 0.75;
 const double uniform = std::sqrt(4.0 * std::numbers::pi);
 
-/// V and s at the end of a membrane that discharges through itself alone, each the same everywhere: one point.
+/// V and s at the end for a membrane that discharges only through itself, both uniform: one point.
 std::array<double, 2> at_one_point(const Model& model, int time_order, double end, int n_steps) {
   NumericalSettings settings = solved_to_rounding(4);
   settings.time_order = time_order;
@@ -52,7 +52,7 @@ std::array<double, 2> at_one_point(const Model& model, int time_order, double en
   return {state.vesicles[0].transmembrane_potential[0] / uniform, state.vesicles[0].poration[0] / uniform};
 }
 
-/// The same by Runge and Kutta's rule.
+/// The same values by the classical Runge–Kutta rule.
 std::array<double, 2> independent_point(const PorationReaction& reaction, double capacitance, double conductance,
                                         double end, int n_steps) {
   Vector y{{start_potential, reaction.start()}};
@@ -95,16 +95,16 @@ BOOST_AUTO_TEST_CASE(one_point_is_that_of_an_independent_integrator_to_eight_dig
 }
 
 BOOST_AUTO_TEST_CASE(stiff_creation_and_a_porosity_that_falls_again_hold_a_tolerance) {
-  // Pores are made within a thousandth of the run, and X stops rising half-way.
+  // Pores form within a thousandth of the run, and X stops rising half-way.
   const std::array<Case, 2> stiff{
       Case{std::make_shared<PoreDensity>(PoreParameters{1e-3, 0.2, 1.0, 2.46, 1e-3}), 0.4, 2e-5},
-      // What jumps within a step escapes its estimate.
+      // A jump within a step escapes its error estimate.
       Case{std::make_shared<MembranePorosity>(PorosityParameters{8.0, 0.6, 4.0, 0.2, 50.0}), 0.4, 1e-4}};
   for (const Case& of : stiff) {
     const auto exact = independent_point(*of.reaction, 0.5, 0.3, of.end, 20000);
     EvolutionSetup setup;
     setup.model = frozen_model(of.reaction, 0.0, 0.5, 0.3);
-    // Without charge, whose relative error would be one of rounding.
+    // Without charge, since its relative error would be one of rounding.
     setup.model.electric->conductivity = setup.model.vesicles[0].inside.conductivity;
     setup.settings = solved_to_rounding(4);
     setup.settings.time_order = 4;
@@ -146,13 +146,13 @@ BOOST_AUTO_TEST_CASE(a_sphere_porates_as_an_independent_integrator_says) {
       BOOST_TEST(std::abs(d.poration_max / reaction->measure(independent.state_at_pole()) - 1.0) < 0.1,
                  part << ": " << d.poration_max << " " << reaction->measure(independent.state_at_pole()));
     }
-    // Far from what an intact membrane has, 1.5 E a (1 − exp(−t/τ)).
+    // Far from the potential of an intact membrane, 1.5 E a (1 − exp(−t/τ)).
     BOOST_TEST(independent.potential_at_pole() < 1.25);
   }
 }
 
 BOOST_AUTO_TEST_CASE(pores_close_within_their_time) {
-  // N_0/α = 1.5, in steps of a tenth of it without a field.
+  // The closing time is N_0/α = 1.5; steps of a tenth of it, without a field.
   const auto reaction = std::make_shared<PoreDensity>(PoreParameters{1e9, 0.258, 1.5e9, 2.46, 0.0});
   const Model model = frozen_model(reaction, 0.0, 1.0, 0.0);
   const Discretisation discretisation = symmetric_discretisation(model, sphere(4), 3);
@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(pores_ride_with_the_membrane) {
   const Discretisation discretisation = symmetric_discretisation(model, position, 2);
   State state = start(model, discretisation, position, 0.05);
   state.vesicles[0].poration[0] = 0.5 * uniform;
-  // With the symmetries of the flow.
+  // Harmonics with the symmetries of the flow.
   state.vesicles[0].poration += 0.1 * harmonic(10, 2, 1) + 0.1 * harmonic(10, 2, 2);
   const VesicleDiagnostics before = evaluated(model, discretisation, state).diagnostics;
   const Vector at_start = state.vesicles[0].poration;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Axis ratio of the prolate ellipsoid of a reduced volume, by bisection.
+/// Axis ratio of the prolate ellipsoid with a given reduced volume, by bisection.
 double prolate_ratio(double reduced_volume) {
   const auto reduced = [](double c) {
     const double e = std::sqrt(1.0 - 1.0 / (c * c));
@@ -38,7 +38,7 @@ Matrix unit_prolate(int order, double reduced_volume, int axis) {
   return ellipsoid(order, {axes[0], axes[1], axes[2]});
 }
 
-/// A run as the program makes it: with the symmetry that there is, in steps of dt.
+/// A run as the program makes it: with the symmetry that is found, in steps of dt.
 VesicleDiagnostics result_of(const Model& model, const Matrix& position, double dt, double end_time) {
   const Discretisation discretisation = symmetric_discretisation(model, position);
   State state = start(model, discretisation, position, dt);
@@ -61,7 +61,7 @@ bool agrees(double value, double reference, double tolerance) {
 
 BOOST_AUTO_TEST_SUITE(published_results, *boost::unit_test::label("slow"))
 
-// Seifert, Berndl and Lipowsky's prolate branch, ∫H² dA/4π.
+// Prolate branch of Seifert, Berndl and Lipowsky, ∫H² dA/4π.
 BOOST_AUTO_TEST_CASE(relaxation_ends_on_the_known_prolates) {
   struct Known {
     double reduced_volume, energy;
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(example_2_ends_on_the_oblate_at_the_step_of_the_paper) {
   BOOST_TEST(std::abs(d.volume_drift) <= 1e-6);
 }
 
-// The same code at t = 20, where the shape is in transit; the first-order error of dt is extrapolated away.
+// The same code at t = 20, while the shape changes; extrapolation removes the first-order error in dt.
 BOOST_AUTO_TEST_CASE(example_2_converges_in_transit) {
   const Matrix position = ellipsoid(12, {1.0, 1.0, 2.0});
   const VesicleDiagnostics coarse = result_of(field_model(), position, 0.25, 20.0);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kOrder = 8;
 
-/// Rate at which the shape turns prolate: the P₂ part of the radial velocity.
+/// Rate at which the shape becomes prolate: the P₂ part of the radial velocity.
 double prolate_rate(const Matrix& velocity) {
   const SphereTransform transform(kOrder, make_grid(kOrder));
   const Matrix directions = grid_directions(transform.grid());
@@ -22,21 +22,21 @@ double prolate_rate(const Matrix& velocity) {
   return transform.analyze(radial)(coefficient_index(2, 0), 0);
 }
 
-/// A field so weak that the shape stays where it is, switched on over a membrane that does not leak.
+/// A field too weak to change the shape, switched on over a membrane that does not leak.
 Model weak_field(double conductivity_ratio) {
   Model model;
   set_electric(model, {{0.0, 0.0, 1e-3}, conductivity_ratio, 1.0, 1.0}, {1.0, 0.0});
   return model;
 }
 
-/// Excess area in degree 4 alone, which degree 2 can take: on a sphere nothing could move.
+/// Excess area only in degree 4, available to degree 2: a sphere could not move.
 Matrix near_sphere() {
   const SphereTransform transform(kOrder, make_grid(2 * kOrder));
   const Vector radius = Vector::Ones(transform.grid().n_points()) + 5e-3 * transform.synthesize(harmonic(kOrder, 4, 0));
   return transform.analyze(radius.asDiagonal() * grid_directions(transform.grid()));
 }
 
-/// When the rate changes its sign, by linear interpolation between steps.
+/// Time at which the rate changes sign, by linear interpolation between steps.
 double time_of_turning(double conductivity_ratio, double expected, int steps_until_expected) {
   const Model model = weak_field(conductivity_ratio);
   const Discretisation discretisation = discretisation_of(kOrder);
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(field_makes_oblate_first_and_turns_prolate_when_the_theory_
     const double expected = tau * std::log((4.0 - ratio) / (2.0 + ratio));
     const double coarse = time_of_turning(ratio, expected, 10);
     const double fine = time_of_turning(ratio, expected, 20);
-    // Backward Euler is of first order: one extrapolation leaves the distance of the shape from a sphere.
+    // Backward Euler is of first order: after one extrapolation the deviation of the shape from a sphere remains.
     BOOST_TEST(std::abs(fine - expected) < 0.6 * std::abs(coarse - expected));
     BOOST_TEST(std::abs(2.0 * fine - coarse - expected) < 0.01 * expected,
                ratio << ": " << coarse << " " << fine << " " << expected);

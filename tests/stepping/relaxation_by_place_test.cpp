@@ -17,7 +17,7 @@ using namespace vehd::testing;
 
 namespace {
 
-/// Displacement currents around a frozen membrane in a field that alternates, with a pump that does.
+/// Displacement currents around a frozen membrane in an alternating field, with an alternating pump.
 Model relaxing_model() {
   Model model = relaxation_model(0.05);
   set_electric(model, {{0.0, 0.0, 0.7}, 0.5, 1.0, 0.3, 0.6, Waveform::alternating(1.0, 0.5, 0.3)}, {0.8, 0.5});
@@ -43,7 +43,7 @@ RelaxingSphere::Charges charges_of(const VesicleState& state) {
   return {state.transmembrane_potential, state.free_charge, state.poration};
 }
 
-/// A sphere of degree 4 from no charge: the run against an independent integrator, and its orders.
+/// Checks a run of a sphere of degree 4 from zero charge against an independent integrator, and its orders.
 void check_sphere(const Model& model) {
   constexpr int kOrder = 4;
   constexpr double kEnd = 0.4;
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(what_is_the_same_everywhere_relaxes_as_without_places) {
   }
 }
 
-// V = Re z and the field at the start of a period: the charges that go with it change by −ω of those of Im z.
+// V = Re z and the field at the start of a period: the corresponding charges change by −ω times those of Im z.
 BOOST_AUTO_TEST_CASE(amplitudes_of_the_averaged_field_alternate_as_the_charges_do) {
   Model model = relaxing_model();
   model.vesicles[0].pump.reset();
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(amplitudes_of_the_averaged_field_alternate_as_the_charges_d
   const Discretisation discretisation(solved_to_rounding(kOrder), {});
   const auto started = [&](const Model& of) { return start_by_place(of, discretisation, position, 1.0, material); };
   const Matrix amplitude = evaluated(averaged, discretisation, started(averaged)).fields.potential_amplitude;
-  // K_k E_k = yV at every point, so q_i = C V − ε_i yV/K_i and q_e = ε_e yV/K_e − C V; over C = 0.8.
+  // K_k E_k = yV at every point, so q_i = C V − ε_i yV/K_i and q_e = ε_e yV/K_e − C V; divided by C = 0.8.
   const SphereTransform& fine = discretisation.vesicle(0).fine_transform();
   const MembraneMaterial values = material_at(discretisation.vesicle(0), material);
   const Matrix v = fine.synthesize(amplitude);

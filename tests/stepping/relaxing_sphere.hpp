@@ -13,11 +13,11 @@
 namespace vehd::testing {
 
 /// Charges of both faces and the state of poration over a sphere of radius 1 with displacement currents, in harmonics
-/// of the potentials on both sides, φ_i = A_n r^n and φ_e = B_n r^−(n+1) − E z: nothing is shared with the solver but
-/// the transform and the functions of one point.
+/// of the potentials on both sides, φ_i = A_n r^n and φ_e = B_n r^−(n+1) − E z: only the transform and the pointwise
+/// functions are shared with the solver.
 class RelaxingSphere {
  public:
-  /// q_i and q_i + q_e over the C_m of the parameters, and s; coefficients.
+  /// Coefficients of q_i and q_i + q_e, both over the C_m of the parameters, and of s.
   struct Charges {
     Vector inner, sum, reaction;
   };
@@ -62,7 +62,7 @@ class RelaxingSphere {
     return result;
   }
 
-  /// Runge and Kutta's rule of order four.
+  /// Classical Runge–Kutta rule of order four.
   [[nodiscard]] Charges after(Charges y, double end, int n_steps) const {
     const double dt = end / n_steps;
     const auto moved = [](const Charges& from, double by, const Charges& rate) {
@@ -91,7 +91,7 @@ class RelaxingSphere {
   [[nodiscard]] double in() const { return electric_.permittivity * electric_.permittivity_ratio; }
   [[nodiscard]] double out() const { return electric_.permittivity; }
 
-  /// What A makes of q_i without a field or Q: E_i = −n A, ε_e E_e = ε_i E_i.
+  /// Contribution of A to q_i without a field or Q: E_i = −n A, ε_e E_e = ε_i E_i.
   [[nodiscard]] Vector of_inner(const Vector& a) const {
     const Vector displaced = in() * degree_.cwiseProduct(a);
     const Vector b = -displaced.cwiseQuotient((degree_.array() + 1.0).matrix()) / out();

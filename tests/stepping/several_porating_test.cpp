@@ -22,7 +22,7 @@ Model porating_model(bool relaxes) {
   return model;
 }
 
-/// Two that are near each other, with fluids and membranes of their own.
+/// Two vesicles near each other, with different fluids and membranes.
 struct TwoVesicles {
   Model model;
   std::vector<Matrix> shapes;
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(each_step_is_backward_euler) {
     for (int step = 0; step < 2; ++step) {
       const State before = state;
       state = run(two.model, discretisation, before, dt, 1);
-      // The rates at its end, by the equation for q, but for what the degree cuts of products with G_m(x).
+      // The rates at its end, from the equation for q, up to the truncation of products with G_m(x).
       const SolvedFields end = solved(two.model, discretisation, state);
       for (std::size_t a = 0; a < 2; ++a) {
         const VesicleState &now = state.vesicles[a], &was = before.vesicles[a];
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(copies_far_apart_porate_and_move_as_one_vesicle) {
     for (std::size_t a = 0; a < 3; ++a) {
       State copy = one;
       copy.vesicles[0] = all.vesicles[a];
-      // Of coordinates of 1e4 rounding leaves 1e-12.
+      // With coordinates of 1e4 rounding leaves 1e-12.
       BOOST_TEST(max_difference(all.vesicles[a].position - (shapes[a] - shape), one.vesicles[0].position) < 1e-8);
       BOOST_TEST(largest_difference_of_all(copy, one) < 1e-8);
     }
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(copies_far_apart_porate_and_move_as_one_vesicle) {
 }
 
 BOOST_AUTO_TEST_CASE(a_porosity_that_does_not_change_is_a_conductance) {
-  // X everywhere 0.4 for ever, G_1 = 3: G_m is larger by 1.2.
+  // X is 0.4 everywhere and constant, G_1 = 3: G_m is larger by 1.2.
   for (const bool relaxes : {false, true}) {
     TwoVesicles two(relaxes);
     Model plain = two.model;

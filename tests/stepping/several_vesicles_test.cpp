@@ -21,7 +21,7 @@ State at_rest_charged(const Model& model, const std::vector<Matrix>& shapes) {
   return state;
 }
 
-/// Vesicles through time by steps of one size.
+/// Advances vesicles in steps of one size.
 class Run {
  public:
   Run(const Model& model, const std::vector<Matrix>& shapes, const NumericalSettings& settings, double dt,
@@ -31,7 +31,7 @@ class Run {
     evolution_.evaluate_start();
   }
 
-  /// @returns how many steps had to be tried again
+  /// @returns number of steps that had to be repeated
   int advance_to(double time) {
     int rejected = 0;
     while (evolution_.state().time < time) rejected += evolution_.step({{}, time}).rejected;
@@ -73,9 +73,9 @@ std::vector<Matrix> two_prolates(int order) {
   return {translated(shape, {0.0, 0.0, -1.75}), translated(shape, {0.0, 0.0, 1.75})};
 }
 
-/// Errors of the upper of two prolates at time 1 against an independent axisymmetric code, whose own are below 1e-7.
+/// Errors of the upper of two prolates at time 1 against an independent axisymmetric code with errors below 1e-7.
 struct ProlateErrors {
-  double place;  ///< largest of gap, centroid and pole distance
+  double place;  ///< largest error of gap, centroid and pole distance
   double energy, tension, potential;
 };
 
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(a_tolerance_serves_all_vesicles_and_their_snapshots) {
   }
 }
 
-// Off axis, with fluids and sizes of their own, in a shear and a field.
+// Off axis, with different fluids and sizes, in a shear and a field.
 BOOST_AUTO_TEST_CASE(every_vesicle_keeps_its_area_and_its_volume) {
   const int order = 8;
   Model model = field_model();
@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(every_vesicle_keeps_its_area_and_its_volume) {
 }
 
 // Each multipole of two frozen spheres: A (m(k + 1) + 1) = m(1 − k) L − m k V, B = V + L + A, C_m dV/dt = −m k B − G_m
-// V, L that of the field and of the other sphere; σ_e = 1.
+// V, with L from the field and the other sphere; σ_e = 1.
 BOOST_AUTO_TEST_CASE(spheres_charge_in_time_as_their_multipoles_do) {
   constexpr double k = 4.0, capacitance = 0.8, conductance = 0.3, d = 2.5, end = 0.4;
   constexpr int kMultipoles = 40;
@@ -213,7 +213,7 @@ BOOST_AUTO_TEST_CASE(spheres_charge_in_time_as_their_multipoles_do) {
   BOOST_TEST(std::abs(found / exact - 1.0) < 1e-5, found << " " << exact);
 }
 
-// Slowly enough that the speed is nearly that of the start: 0.00726251441 at a gap of half a radius.
+// The approach is so slow that the speed is nearly that of the start: 0.00726251441 at a gap of half a radius.
 BOOST_AUTO_TEST_CASE(spheres_stay_spheres_while_they_approach_each_other) {
   Model model = relaxation_model(0.1);
   set_electric(model, {{0.0, 0.0, 1.0}, 10.0, 1.0, 1.0}, {1.0, 0.0});

@@ -14,7 +14,7 @@ using namespace vehd;
 using namespace vehd::testing;
 
 // Inextensible spheres, alone and among others, against exact solutions at every accepted step, in steps of a fixed
-// size and in those that a tolerance allows, which are long: nothing of a rigid motion is an error.
+// size and in the long ones that a tolerance allows: a rigid motion contributes no error.
 BOOST_AUTO_TEST_SUITE(spheres)
 
 namespace {
@@ -23,7 +23,7 @@ constexpr int kDegree = 8;
 constexpr double kRadius = 1.3;
 const Vector3 kCentre(0.3, -0.2, 0.5);
 
-/// How a run steps: in steps of dt, or with a tolerance.
+/// Time stepping of a run: in steps of dt, or with a tolerance.
 struct Steps {
   int time_order;
   double tolerance = 0.0, dt = 0.25;
@@ -42,8 +42,8 @@ std::vector<Steps> all_steps() {
 
 using Look = std::function<void(const State&, const Evaluation&)>;
 
-/// @param look  sees the start and every accepted step
-/// @returns how many steps there were
+/// @param look  called at the start and after every accepted step
+/// @returns number of steps
 int run(const Model& model, const std::vector<StartMembrane>& start, const Steps& steps, double end_time,
         const Look& look) {
   EvolutionSetup setup{model, {}, {}, fixed_steps(steps.dt)};
@@ -68,14 +68,14 @@ Vector3 centroid_velocity(const VesicleDiagnostics& d) {
 
 Vector3 place(const VesicleDiagnostics& d) { return {d.centroid_x, d.centroid_y, d.centroid_z}; }
 
-/// Largest difference of an extent from that of a sphere, over the radius.
+/// Largest difference of an extent from the diameter of a sphere, over the radius.
 double deformation(const VesicleDiagnostics& d, double radius) {
   return std::max({std::abs(d.extent_x - 2.0 * radius), std::abs(d.extent_y - 2.0 * radius),
                    std::abs(d.extent_z - 2.0 * radius)}) /
          radius;
 }
 
-/// ∫ r × v dA = (2/3) A R² Ω.
+/// Ω from ∫ r × v dA = (2/3) A R² Ω.
 Vector3 rotation_rate(const VesicleSolution& solution, const VesicleFields& fields) {
   const Surface& s = solution.membrane->surface;
   const Matrix velocity = solution.membrane->fine.synthesize(fields.velocity);
@@ -102,7 +102,7 @@ StartMembrane off_centre_sphere() { return {translated(sphere(kDegree, kRadius),
 
 }  // namespace
 
-// Einstein, and a centre that goes with the fluid: x(t) = exp(∇v t) x(0).
+// Einstein's viscosity, and a centre that follows the fluid: x(t) = exp(∇v t) x(0).
 BOOST_AUTO_TEST_CASE(every_linear_flow_turns_a_sphere_and_is_as_viscous_as_einstein_says) {
   for (const BackgroundFlow& flow : linear_flows()) {
     for (const Steps& steps : all_steps()) {
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(spheres_in_tubes_and_under_gravity_move_as_faxen_and_stokes
   }
 }
 
-// What is left of a sphere by a file, by other units or by a former run is a sphere.
+// A sphere read from a file, converted to other units or left by an earlier run is a sphere up to rounding.
 BOOST_AUTO_TEST_CASE(a_sphere_up_to_rounding_is_a_sphere) {
   Model model = shear_model();
   for (const double excess : {1e-15, 1e-12, 1e-9, 1e-7}) {

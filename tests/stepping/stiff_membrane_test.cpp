@@ -22,14 +22,14 @@ Model stiff_shear(double modulus) {
   return model;
 }
 
-/// A prolate of reduced volume 0.9 with area 4π.
+/// A prolate of reduced volume 0.9 and area 4π.
 Matrix prolate_of_unit_radius(int order) {
   const Matrix position = ellipsoid(order, {1.0, 1.0, 1.9621762549176331});
   const double area = surface_area(make_surface({order, make_grid(2 * order)}, position));
   return position * std::sqrt(4.0 * std::numbers::pi / area);
 }
 
-/// Inclined by 30° against z in the plane of the shear.
+/// The prolate inclined by 30° against z in the plane of the shear.
 Matrix inclined_prolate(int order) {
   const Matrix3 rotation = Eigen::AngleAxisd(std::numbers::pi / 6.0, Vector3::UnitY()).toRotationMatrix();
   return prolate_of_unit_radius(order) * rotation.transpose();
@@ -54,7 +54,7 @@ VesicleDiagnostics in_shear(double modulus, double end_time) {
 
 BOOST_AUTO_TEST_SUITE(stiff_membrane)
 
-// The stiffer the membrane the less the flow deforms its equilibrium, as 1/κ_B; how it turns and treads has a limit.
+// The stiffer the membrane, the less the flow deforms its equilibrium, as 1/κ_B; its turning and treading have a limit.
 BOOST_AUTO_TEST_CASE(motion_in_shear_has_the_limit_of_a_membrane_that_flow_does_not_bend) {
   const VesicleDiagnostics soft = in_shear(1e1, 0.2), stiff = in_shear(1e2, 0.2), stiffer = in_shear(1e3, 0.2);
   const auto difference = [](const VesicleDiagnostics& a, const VesicleDiagnostics& b) {
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(motion_in_shear_has_the_limit_of_a_membrane_that_flow_does_
   };
   const double far = difference(soft, stiffer), near = difference(stiff, stiffer);
   BOOST_TEST(near < 0.1 * far + 2.0 * kTolerance, far << " and " << near);
-  // The least energy of reduced volume 0.9 (docs/scenes/relaxation.toml).
+  // The smallest energy at reduced volume 0.9 (docs/scenes/relaxation.toml).
   BOOST_TEST(std::abs(stiffer.bending_energy_scaled / (4.0 * std::numbers::pi * 1.18964) - 1.0) < kTolerance);
 }
 
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(first_order_steps_of_a_thousand_bending_times_keep_to_the_e
     const Matrix& velocity = now.fields.vesicles[0].velocity;
     speeds.push_back(velocity.bottomRows(velocity.rows() - 1).norm());
   }
-  // Within ten of these steps it moves by its radius at most. The speed after a single one depends on rounding.
+  // In ten of these steps it moves by at most its radius. The speed after a single step depends on rounding.
   const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
   BOOST_TEST(mean < 1e-4);
 }

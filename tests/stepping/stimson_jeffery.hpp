@@ -7,8 +7,8 @@ namespace vehd::testing {
 /// Drag of two equal spheres of radius a along their line of centres over 6πμaU, at a gap of h a.
 /// Source: Stimson and Jeffery 1926
 struct StimsonJeffery {
-  double same;      ///< both with velocity U
-  double opposite;  ///< with U and −U
+  double same;      ///< both move with velocity U
+  double opposite;  ///< they move with U and −U
 };
 
 inline StimsonJeffery stimson_jeffery(double h) {

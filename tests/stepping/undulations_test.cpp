@@ -31,7 +31,7 @@ double excess_area(const VesicleDiagnostics& d) {
   return d.area / std::pow(3.0 * d.volume / (4.0 * std::numbers::pi), 2.0 / 3.0) - 4.0 * std::numbers::pi;
 }
 
-/// s₂ by Δ = 8πs₂²/5.
+/// s₂ from Δ = 8πs₂²/5.
 double prolate_amplitude(const VesicleDiagnostics& d) {
   return std::sqrt(5.0 * excess_area(d) / (8.0 * std::numbers::pi));
 }
@@ -45,7 +45,7 @@ Model undulating(const Matrix& position, double tension) {
   return model;
 }
 
-/// With a constant field that charges the membrane at once and stresses it by ¾ εE² P₂ in what deforms it.
+/// Adds a constant field that charges the membrane at once; the stress that deforms it is ¾ εE² P₂.
 Model in_field(Model model, double stress) {
   set_electric(model, {{0.0, 0.0, std::sqrt(stress / 0.75)}, 1.0, 1.0, 1.0}, {1e-2, 0.0});
   return model;
@@ -65,7 +65,7 @@ VesicleDiagnostics at_end(const Model& model, const Matrix& position, double end
   return evolution.evaluation().diagnostics.vesicles[0];
 }
 
-/// s₂ with 4(6 + Σ) κ_c s₂ = stress and 1 + Δ/4π = A_0 (1 + α(Σ κ_c))/4π.
+/// s₂ that satisfies 4(6 + Σ) κ_c s₂ = stress and 1 + Δ/4π = A_0 (1 + α(Σ κ_c))/4π.
 double stationary_amplitude(const Undulations& undulations, double stress) {
   const AreaLaw law(undulations);
   double low = 0.0, high = 0.5;
@@ -82,7 +82,7 @@ double stationary_amplitude(const Undulations& undulations, double stress) {
 
 BOOST_AUTO_TEST_SUITE(undulations)
 
-// The theory leaves out what is of second order in s.
+// The theory neglects terms of second order in s.
 BOOST_AUTO_TEST_CASE(stationary_shape_in_a_field_is_that_of_the_quasi_spherical_theory) {
   const Matrix position = nearly_spherical(8, 0.05);
   for (const double stress : {0.3, 3.0, 30.0}) {
@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(stationary_shape_in_a_field_is_that_of_the_quasi_spherical_
   }
 }
 
-/// s₂ after a time by ds₂/dt = −(24/55)(6κ_c + σ) s₂, σ from the area; classical Runge–Kutta steps.
+/// s₂ after a time from ds₂/dt = −(24/55)(6κ_c + σ) s₂, σ from the area, by classical Runge–Kutta steps.
 double relaxed_amplitude(const AreaLaw& law, double s, double time) {
   const auto rate = [&](double amplitude) {
     const double tension = law.tension(4.0 * std::numbers::pi + 8.0 * std::numbers::pi * amplitude * amplitude / 5.0);
@@ -109,7 +109,7 @@ double relaxed_amplitude(const AreaLaw& law, double s, double time) {
   return s;
 }
 
-// First tension relaxes the shape, then bending. Of the way gone the theory is wrong by the first order in s.
+// At first tension relaxes the shape, then bending. The relative error of the theory in the change of s₂ is O(s).
 BOOST_AUTO_TEST_CASE(relaxation_without_a_field_tends_to_the_quasi_spherical_theory) {
   for (const double time : {1e-4, 1e-3, 1e-2, 5e-2}) {
     std::vector<double> errors;
@@ -122,13 +122,13 @@ BOOST_AUTO_TEST_CASE(relaxation_without_a_field_tends_to_the_quasi_spherical_the
       errors.push_back((start - found) / (start - expected) - 1.0);
     }
     BOOST_TEST(std::abs(errors[2]) < 0.03, time << ": " << errors[2]);
-    // Extrapolated to s = 0 nothing is left.
+    // The error extrapolated to s = 0 vanishes.
     BOOST_TEST(std::abs(2.0 * errors[2] - errors[1]) < 0.004,
                time << ": " << errors[0] << " " << errors[1] << " " << errors[2]);
   }
 }
 
-// Without undulations an exact sphere could not change at all.
+// Without undulations an exact sphere could not change its shape.
 BOOST_AUTO_TEST_CASE(exact_sphere_is_stretched_by_a_flow) {
   const Matrix position = sphere(8);
   Model model = undulating(position, 1.0);

@@ -35,7 +35,7 @@ std::map<std::string, std::uint64_t> kernels_of(const Model& model) {
   return instruments.kernel_evaluations();
 }
 
-/// Difference per step of the end positions of two steps with and without use of the symmetry.
+/// Difference per step between the end positions of two steps with and without use of the symmetry.
 double symmetry_difference(const Model& model, const Matrix& position) {
   constexpr int kSteps = 2;
   const auto end = [&](bool use_symmetry) {
@@ -56,7 +56,7 @@ double theoretical_inclination(double ratio) {
   return 0.5 * std::acos(cosine) * 180.0 / std::numbers::pi;
 }
 
-/// Where cos 2ψ reaches 1.
+/// Viscosity ratio at which cos 2ψ reaches 1.
 double critical_ratio() {
   return -32.0 / 23.0 + 120.0 / 23.0 * std::sqrt(2.0 * std::numbers::pi / (15.0 * excess_area()));
 }
@@ -71,7 +71,7 @@ Matrix slight_prolate(int order, double inclination_deg) {
   return ellipsoid(order, Vector3(ratio, 1.0, 1.0) * size) * turn.transpose();
 }
 
-/// Inclinations after each step of a run.
+/// Inclination after each step of a run.
 std::vector<double> inclinations(const Model& model, const Matrix& position, double dt, int n_steps) {
   const Discretisation discretisation = discretisation_for(model, position, true);
   State state = start(model, discretisation, position, dt);
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(double_layer_is_evaluated_only_where_the_viscosities_differ
   BOOST_TEST(kernels.at("stokes_double") == kernels.at("stokes_single"));
 }
 
-// V and W of degree 2 with vanishing divergence: αV − 6αW. The flow enters on W alone and the tension acts on both.
+// V and W of degree 2 with vanishing divergence: αV − 6αW. The flow has only a W part; the tension acts on both.
 BOOST_AUTO_TEST_CASE(inextensible_sphere_has_the_exact_velocity_in_shear) {
   const int order = 10;
   const Discretisation discretisation = discretisation_of(order);
@@ -196,7 +196,7 @@ BOOST_AUTO_TEST_CASE(vesicle_treads_below_the_critical_ratio_and_leaves_the_flow
   BOOST_TEST(above.back() < above[35] - 0.3);
 }
 
-// A membrane so stiff that it keeps its shape cannot breathe instead.
+// A membrane so stiff that it keeps its shape turns over, because it cannot breathe.
 BOOST_AUTO_TEST_CASE(stiff_vesicle_of_twice_the_critical_ratio_turns_over) {
   Model model = contrast_model(2.0 * critical_ratio());
   model.vesicles[0].bending->modulus = 50.0;
@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(stiff_vesicle_of_twice_the_critical_ratio_turns_over) {
   const auto over = std::adjacent_find(angles.begin(), angles.end(),
                                        [](double before, double after) { return before < -45.0 && after > 45.0; });
   BOOST_TEST_REQUIRE((over != angles.end()));
-  // It goes on turning: how far by then is a matter of the time step (21 to 32 degrees from 0.2 down to 0.025).
+  // It continues to turn; the angle reached depends on the time step (21 to 32 degrees from 0.2 down to 0.025).
   BOOST_TEST(angles.back() < *(over + 1) - 20.0);
 }
 

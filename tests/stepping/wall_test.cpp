@@ -17,7 +17,7 @@ namespace {
 
 Wall floor_without_slip() { return {Vector3::Zero(), Vector3::UnitZ(), WallFlow::no_slip, WallField::none}; }
 
-/// A unit sphere that a force of 1 pulls.
+/// A unit sphere pulled by a force of 1.
 Model pulled(const Vector3& direction, double viscosity, double ratio, const Wall& wall) {
   Model model = relaxation_model(0.1);
   model.viscosity = viscosity;
@@ -42,7 +42,7 @@ Matrix height_above(const Matrix& position, double height) { return translated(p
 
 }  // namespace
 
-// Spheres are rigid whatever is within them. Source: Brenner 1961
+// Spheres are rigid whatever the viscosity inside. Source: Brenner 1961
 BOOST_AUTO_TEST_CASE(spheres_towards_a_wall_move_as_brenner_says) {
   struct Row {
     double height, drag;
@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(distant_spheres_move_along_a_wall_as_faxen_says) {
   }
 }
 
-// A force dipole S drifts at 9 S_zz/(64πμh²) away from the wall, and moments of higher order add (a/h)² of that.
+// A force dipole S drifts at 9 S_zz/(64πμh²) away from the wall; moments of higher order contribute (a/h)² of that.
 BOOST_AUTO_TEST_CASE(vesicles_far_from_a_wall_drift_as_their_stresslets_do) {
   Model model = shear_model();
   model.wall = floor_without_slip();
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(vesicles_far_from_a_wall_drift_as_their_stresslets_do) {
   }
 }
 
-// Rates of everything beside a wall that mirrors are those of two mirrored vesicles.
+// All rates beside a mirroring wall equal those of two mirrored vesicles.
 BOOST_AUTO_TEST_CASE(a_wall_that_mirrors_is_a_scene_of_mirrored_vesicles) {
   for (const WallField field : {WallField::insulating, WallField::electrode}) {
     const Wall wall = oblique_wall(WallFlow::stress_free, field);
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(a_wall_that_mirrors_is_a_scene_of_mirrored_vesicles) {
   }
 }
 
-// The same in other axes, and anywhere along the wall.
+// Results are the same in other axes, and anywhere along the wall.
 BOOST_AUTO_TEST_CASE(scenes_that_are_turned_and_moved_with_their_wall_are_the_same) {
   Model model = shear_model();
   model.wall = floor_without_slip();
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(scenes_that_are_turned_and_moved_with_their_wall_are_the_sa
   const std::vector<Matrix> along{translated(here[0], {5.0, -3.0, 0.0})};
   BOOST_TEST(relative_difference(solved(model, discretisation_of(along), at_rest(along)).fields.vesicles[0].velocity,
                                  velocity) < 1e-8);
-  // Another grid leaves out something else: without a wall they differ by 8.9e-6.
+  // Another grid truncates differently: without a wall the velocities differ by 8.9e-6.
   Frame frame;
   frame.axes = Eigen::AngleAxisd(0.8, Vector3(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
   const Model there = in_frame(frame, model);
@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(scenes_that_are_turned_and_moved_with_their_wall_are_the_sa
   BOOST_TEST(relative_difference(found.vesicles[0].velocity, velocity) < 1.5e-5);
 }
 
-// The axis is the normal of the wall through the vesicle, wherever that is.
+// The axis is the normal of the wall through the vesicle, at any position.
 BOOST_AUTO_TEST_CASE(an_axis_is_found_off_the_origin) {
   Model model = relaxation_model(0.1);
   model.wall = Wall{{0.0, 0.5, 0.0}, Vector3::UnitX(), WallFlow::no_slip, WallField::none};
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(an_axis_is_found_off_the_origin) {
   BOOST_TEST(std::abs(nearest_to_wall(*there.wall, moved.vesicles[0].position).distance - 0.7) < 1e-12);
 }
 
-// Above the same wall vesicles may be images of one another.
+// Vesicles above the same wall may be images of one another.
 BOOST_AUTO_TEST_CASE(exchanged_vesicles_above_a_wall_are_those_that_are_all_computed) {
   Model model = field_model();
   model.electric->field = Vector3::UnitZ();
@@ -191,12 +191,12 @@ BOOST_AUTO_TEST_CASE(weight_is_carried_to_the_wall) {
   Instruments instruments;
   const Evaluation found = evaluate(model, discretisation_of(positions), at_rest(positions), instruments);
   const VesicleDiagnostics& d = found.diagnostics.vesicles[0];
-  // Bending and tension add up to zero but for what degree 10 leaves out of them.
+  // Bending and tension add up to zero up to the truncation error of degree 10.
   BOOST_TEST(std::abs(d.force_wall - d.volume / (4.0 / 3.0 * std::numbers::pi)) < 1e-6 * d.force_wall);
   BOOST_TEST(std::abs(d.gap_wall - 0.2) < 1e-12);
 }
 
-// What the symmetry about the normal leaves out changes nothing.
+// Use of the symmetry about the normal changes nothing.
 BOOST_AUTO_TEST_CASE(a_sinking_vesicle_keeps_its_symmetry) {
   Model model = pulled(Vector3(0.0, 0.0, -1.0), 1.0, 1.0, floor_without_slip());
   const Matrix position = at_gap(*model.wall, prolate(10), 0.5);

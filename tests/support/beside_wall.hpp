@@ -6,7 +6,7 @@
 /// Mirror images of whole membranes, to which scenes with a wall are compared.
 namespace vehd::testing {
 
-/// A wall in no particular direction.
+/// A wall in general position.
 inline Wall oblique_wall(WallFlow flow, WallField field) {
   return {{0.4, -1.0, 0.3}, Vector3(0.3, -0.4, 1.2).normalized(), flow, field};
 }

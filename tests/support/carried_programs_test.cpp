@@ -13,7 +13,7 @@ std::string variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-/// Variables as they are without an archive, before and after a case.
+/// Unsets the variables of an archive before and after a case.
 struct NoVariables {
   NoVariables() { unset(); }
   ~NoVariables() { unset(); }

@@ -20,8 +20,8 @@ constexpr std::chrono::seconds most{30};
 
 bool is_alive(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
 
-/// A program with children that go out of its way: in the background, in a session of their own, and deaf to SIGTERM.
-/// Each writes its number down.
+/// A program with children that are hard to end: in the background, in a session of their own, and ignoring SIGTERM.
+/// Each writes down its process number.
 struct Family {
   static constexpr std::size_t size = 5;
   TemporaryDirectory directory;
@@ -49,7 +49,7 @@ struct Family {
     const std::set<pid_t> all = members();
     return std::none_of(all.begin(), all.end(), is_alive);
   }
-  /// The program itself: of its own words the first.
+  /// The program itself, which is the first to write its number.
   [[nodiscard]] pid_t eldest() const {
     pid_t process = 0;
     std::istringstream(file_text(directory / "members")) >> process;

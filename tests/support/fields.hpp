@@ -7,7 +7,7 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/sphere/transform.hpp"
 
-/// Harmonic fields for tests: reproducible random coefficients, points of a grid, poles moved elsewhere.
+/// Harmonic fields for tests: reproducible random coefficients, points of a grid, fields with moved poles.
 namespace vehd::testing {
 
 /// Uniform in [-1, 1]; the same numbers for the same seed on every machine.
@@ -53,7 +53,7 @@ inline Matrix grid_directions(const SphereGrid& grid) {
   return directions;
 }
 
-/// A rotation that takes the poles to general position.
+/// A rotation that moves the poles to general position.
 inline Matrix3 general_rotation() {
   return (Eigen::AngleAxisd(0.7, Vector3::UnitZ()) * Eigen::AngleAxisd(1.1, Vector3::UnitY()) *
           Eigen::AngleAxisd(-0.4, Vector3::UnitZ()))

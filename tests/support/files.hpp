@@ -7,7 +7,7 @@
 
 #include "bie/support/file_system.hpp"
 
-/// A directory of its own for one test case, removed at the end.
+/// Temporary directory for one test case, removed at the end.
 class TemporaryDirectory {
  public:
   [[nodiscard]] std::string operator/(const std::string& name) const { return (folder_.path() / name).string(); }

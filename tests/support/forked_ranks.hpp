@@ -19,10 +19,10 @@
 #include "bie/support/ranks/parcel.hpp"
 #include "bie/support/ranks/ranks.hpp"
 
-/// Ranks without MPI: copies of the test that talk through memory which they share.
+/// Ranks without MPI: forked copies of the test that communicate through shared memory.
 namespace vehd::testing {
 
-/// Seen by all copies.
+/// Memory shared by all copies.
 class SharedMemory {
  public:
   explicit SharedMemory(int n_ranks)
@@ -48,7 +48,7 @@ class SharedMemory {
   }
 
  private:
-  // Memory that nobody touches is not there.
+  // Pages that are never touched take no memory.
   static constexpr std::size_t kSlot = std::size_t{1} << 26;
   static char* mapped(std::size_t size) {
     void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -87,7 +87,7 @@ class ForkedLink : public RankLink {
   int rank_;
 };
 
-/// What this work says on each of n ranks; of an exception its text. The first rank is this process.
+/// Result of this work on each of n ranks, or the text of its exception. The first rank is this process.
 inline std::vector<std::string> on_ranks(int n, const std::function<std::string(const Ranks&)>& work) {
   if (n == 1) return {work(Ranks())};
   const SharedMemory memory(n);
@@ -103,7 +103,7 @@ inline std::vector<std::string> on_ranks(int n, const std::function<std::string(
     others.push_back(::fork());
     if (others.back() != 0) continue;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    // Threads of this process are not there in a copy of it.
+    // A forked copy does not have the threads of this process.
     omp_set_num_threads(1);
     ForkedLink(memory, rank).gather(said(rank));
     ::_exit(0);

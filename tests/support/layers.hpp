@@ -9,7 +9,7 @@
 
 namespace vehd::testing {
 
-/// Tables of one order with the program's default settings unless told otherwise.
+/// Tables of one order, with the program's default settings unless others are given.
 struct Space {
   SphereTransform coarse;
   SphereTransform fine;
@@ -27,7 +27,7 @@ constexpr LayerSelection kStokesLayer{false, false, false, true};
 constexpr LayerSelection kStokesLayers{.stokes_single = true, .stokes_double = true};
 constexpr LayerSelection kAllLayers{true, true, true, true};
 
-/// All kernels that an assembly knows, on weighted and on plain densities.
+/// All kernels of an assembly, on weighted and on plain densities.
 inline constexpr std::array kEveryKernel{LayerSelection{true, true, true, true, true, true, false},
                                          LayerSelection{true, true, true, true, true, true, true}};
 inline constexpr std::array kScalarLayers{&LayerOperators::laplace_single, &LayerOperators::laplace_double,

@@ -9,7 +9,7 @@
 namespace vehd::testing {
 
 /// A frozen membrane on the tables of `space`.
-/// @param viscosity_ratio  other than 1 it takes the Stokes double layer of the selection
+/// @param viscosity_ratio  a value other than 1 requires the Stokes double layer of the selection
 inline Membrane make_membrane(const Space& space, const Matrix& position, const LayerSelection& selection,
                               double viscosity_ratio = 1.0) {
   Surface surface = make_surface(space.fine, position);

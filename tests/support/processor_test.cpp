@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(what_is_needed_and_not_there_is_named_in_order) {
   BOOST_TEST(missing(none, all) == none, boost::test_tools::per_element());
   BOOST_TEST(missing(all, none) == all, boost::test_tools::per_element());
   BOOST_TEST(missing(all, {"avx2"}) == (Names{"avx", "avx512f"}), boost::test_tools::per_element());
-  // A name that begins another is not that one.
+  // A name that is a prefix of another does not match it.
   BOOST_TEST(missing({"avx"}, {"avx512f", "avx2"}) == Names{"avx"}, boost::test_tools::per_element());
   BOOST_TEST(missing({"avx512f"}, {"avx"}) == Names{"avx512f"}, boost::test_tools::per_element());
 }

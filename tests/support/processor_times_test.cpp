@@ -17,12 +17,12 @@ BOOST_AUTO_TEST_CASE(processors_that_others_use_are_not_left) {
   const auto left = [&](double idle, double own, int most) {
     return vehd::processors_left(begin, {begin.elapsed + 10.0, begin.idle + idle, begin.own + own}, most);
   };
-  // Of two: idle, at work here alone, shared with one other process, taken by others.
+  // Two processors: idle, busy only here, shared with one other process, used by others.
   BOOST_TEST(left(20.0, 0.0, 2) == 2);
   BOOST_TEST(left(0.5, 18.5, 2) == 2);
   BOOST_TEST(left(0.0, 12.0, 2) == 1);
   BOOST_TEST(left(0.0, 3.0, 2) == 1);
-  // Of 64, of which this process may use four or all.
+  // 64 processors, of which this process may use four or all.
   BOOST_TEST(left(600.0, 20.0, 4) == 4);
   BOOST_TEST(left(200.0, 20.0, 64) == 22);
   // Nothing has been measured yet.

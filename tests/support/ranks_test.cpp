@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_SUITE(ranks)
 
 namespace {
 
-/// All ranks say this.
+/// Checks that all ranks return this text.
 void check_all_say(const std::vector<std::string>& said, const std::string& expected) {
   for (const std::string& of_rank : said) BOOST_TEST(of_rank == expected);
 }
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(texts_go_to_the_ranks_they_are_for) {
 }
 
 BOOST_AUTO_TEST_CASE(what_one_rank_throws_all_throw) {
-  // Whatever the others do meanwhile: nothing, a call, or a call within another.
+  // The other ranks meanwhile do nothing, make a call, or make a call within another.
   for (const int busy : {0, 1, 2}) {
     const auto said = on_ranks(3, [&](const Ranks& ranks) -> std::string {
       try {
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(what_one_rank_throws_all_throw) {
           if (busy == 2) ranks.together([&] { ranks.meet(); });
         });
       } catch (const ConvergenceError& error) {
-        // They go on as one.
+        // All ranks continue together.
         return fmt::format("{} {}", error.what(), ranks.any(ranks.rank() == 2));
       }
       return "nothing";

@@ -11,7 +11,7 @@
 
 namespace vehd::testing {
 
-/// That of a run of the scene to its end, whose files are gone.
+/// History of a run of the scene to its end; the files of the run are removed.
 inline HistoryTable history_of(const Scene& scene) {
   const TemporaryDirectory directory;
   const RunPaths paths{directory / "run"};
@@ -22,7 +22,7 @@ inline HistoryTable history_of(const Scene& scene) {
   return HistoryTable(paths.history());
 }
 
-/// Number of the first row at a time, to rounding; one is required.
+/// Index of the first row at a time, up to rounding; there must be one.
 inline std::size_t row_at(const HistoryTable& history, double time) {
   const std::vector<double>& times = history.column("time");
   const auto found = std::ranges::find_if(times, [&](double t) { return std::abs(t - time) < 1e-9 * times.back(); });

@@ -10,7 +10,7 @@
 #include "bie/files/hdf5_handle.hpp"
 #include "tests/support/seals.hpp"
 
-/// Changes of a run.h5 that its checksums do not show.
+/// Changes of a run.h5 that its checksums do not reveal.
 namespace vehd::testing {
 
 inline Hdf5Handle open_for_damage(const std::string& path) {
@@ -20,7 +20,7 @@ inline Hdf5Handle open_for_damage(const std::string& path) {
   return file;
 }
 
-/// Every number of a dataset becomes change(number).
+/// Replaces every number of a dataset by change(number).
 inline void change_dataset(hid_t file, const std::string& dataset, const std::function<double(double)>& change) {
   const Hdf5Handle data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   const Hdf5Handle space(H5Dget_space(data.id()), H5Sclose);

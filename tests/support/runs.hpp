@@ -11,7 +11,7 @@
 #include "bie/stepping/time/step_control.hpp"
 #include "tests/support/fields.hpp"
 
-/// Models of the tests and short runs of them.
+/// Models for the tests and short runs of them.
 namespace vehd::testing {
 
 inline Model relaxation_model(double modulus) {
@@ -26,7 +26,7 @@ inline Model shear_model() {
   return model;
 }
 
-/// A field around one vesicle with this inside and this membrane.
+/// Sets a field around one vesicle with this inside and this membrane.
 inline void set_electric(Model& model, const ElectricParameters& electric, const ChargingParameters& charging) {
   model.electric = AppliedField{electric.field, electric.conductivity_out, electric.permittivity, electric.waveform};
   model.vesicles[0].inside = {electric.conductivity_in, electric.permittivity_ratio};
@@ -46,8 +46,8 @@ inline Discretisation discretisation_of(int order) {
   return Discretisation(settings);
 }
 
-/// Solves that go on to rounding. With those of a run, what two solvers make of one step differs by where each of them
-/// stopped, on one processor here and on another there.
+/// Sets tolerances to rounding. With the tolerances of a run, the results of two solvers for one step differ by where
+/// each of them stopped, which depends on the processor.
 inline void solve_to_rounding(NumericalSettings& settings) {
   settings.flow_tolerance = 1e-12;
   settings.electric_tolerance = 1e-13;
@@ -63,7 +63,7 @@ inline NumericalSettings solved_to_rounding(int order) {
   return settings;
 }
 
-/// Solvers that add nothing to what is compared; the constraints are held as in a run.
+/// Settings with solvers that add no error to a comparison; the constraints are held as in a run.
 inline NumericalSettings tight_settings(int time_order) {
   NumericalSettings settings;
   settings.time_order = time_order;
@@ -81,12 +81,12 @@ inline State at_rest(const Matrix& position) {
   return state;
 }
 
-/// Which coefficients of a scalar that is its own image can differ from zero.
+/// Indices of the coefficients that can differ from zero in a scalar that is its own image.
 inline std::vector<Index> scalar_entries(const Symmetry& symmetry, int order) {
   return SymmetrySubspace(symmetry, order).scalars();
 }
 
-/// With the symmetry that the shape and the model have.
+/// Discretisation with the symmetry that the shape and the model have.
 inline Discretisation symmetric_discretisation(const Model& model, const Matrix& position, int time_order = 1) {
   NumericalSettings settings;
   settings.order = order_of(position.rows());
@@ -118,7 +118,7 @@ inline StepAttempt stepped(const Model& model, const Discretisation& discretisat
                       instruments);
 }
 
-/// n_steps steps of size dt, calling `watch` with each new state.
+/// Takes n_steps steps of size dt, calling `watch` with each new state.
 template <typename Watch>
 State run(const Model& model, const Discretisation& discretisation, State state, double dt, int n_steps,
           const Watch& watch) {
@@ -146,7 +146,7 @@ inline double largest_difference(const State& a, const State& b) {
   return difference;
 }
 
-/// That of the states in which n steps end from the same shape in two discretisations, per step.
+/// Largest difference per step between the final states of n steps from the same shape in two discretisations.
 inline double difference_per_step(const Model& model, const Matrix& position, const Discretisation& one,
                                   const Discretisation& other, double dt, int n_steps) {
   const State a = run(model, one, start(model, one, position, dt), dt, n_steps);
@@ -154,7 +154,7 @@ inline double difference_per_step(const Model& model, const Matrix& position, co
   return largest_difference(a, b) / n_steps;
 }
 
-/// That with and without use of the symmetry that is found.
+/// Largest difference per step with and without use of the symmetry that is found.
 inline double difference_with_symmetry(const Model& model, const Matrix& position, double dt, int n_steps) {
   const NumericalSettings settings = solved_to_rounding(order_of(position.rows()));
   const Discretisation reduced(settings, find_symmetry(model, at_rest(position))), full(settings, {});

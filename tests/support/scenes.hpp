@@ -14,7 +14,7 @@ inline std::string quick_scene(const std::string& end_time = "3.0") {
          end_time + "\n[output]\nevery = 0.5\n";
 }
 
-/// The same with [units], and with the numbers that it has without them.
+/// The quick scene with [units], and with the numbers that are implied without them.
 inline std::string quick_scene_with_units(const std::string& units, const std::string& end_time = "3.0") {
   const std::string scene =
       std::regex_replace(quick_scene(end_time), std::regex("\nconductance"), "\ncapacitance = 1.0\nconductance");
@@ -22,7 +22,7 @@ inline std::string quick_scene_with_units(const std::string& units, const std::s
          std::regex_replace(scene, std::regex("\nfield"), "\npermittivity = 1.0\nfield");
 }
 
-/// A scene of docs/scenes at a low degree and with few steps. One in SI units keeps its steps and ends after a
+/// A scene of docs/scenes at a low degree and with few steps. A scene in SI units keeps its steps and ends after a
 /// hundredth of its time.
 inline std::string shortened_scene(std::string scene) {
   scene = std::regex_replace(scene, std::regex("\n(degree|order) = \\d+"), "\n$1 = 6");

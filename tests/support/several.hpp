@@ -20,14 +20,14 @@ struct SeveralMembranes {
 
   [[nodiscard]] std::size_t count() const { return positions.size(); }
 
-  /// All between the same fluids.
+  /// All vesicles between the same fluids.
   [[nodiscard]] std::vector<ElectricMembrane> in_field(const ElectricParameters& electric) const {
     std::vector<ElectricMembrane> all;
     for (const Membrane& membrane : membranes) all.push_back({electric, membrane});
     return all;
   }
 
-  /// The same where membranes charge.
+  /// The same with membranes that charge.
   [[nodiscard]] std::vector<ChargingMembrane> charging(const ElectricParameters& electric,
                                                        const std::vector<ChargingParameters>& of_each) const {
     std::vector<ChargingMembrane> all;
@@ -35,7 +35,7 @@ struct SeveralMembranes {
     return all;
   }
 
-  /// A field without values on each.
+  /// A zero field on each membrane.
   [[nodiscard]] std::vector<Vector> zeros() const {
     std::vector<Vector> all;
     for (const Matrix& position : positions) all.emplace_back(Vector::Zero(position.rows()));

@@ -19,7 +19,7 @@ inline State at_rest(const std::vector<Matrix>& positions) {
   return state;
 }
 
-/// Spaces in the degrees of the positions.
+/// Discretisation with spaces of the degrees of the positions.
 inline Discretisation discretisation_of(const std::vector<Matrix>& positions, const NumericalSettings& settings = {},
                                         const Symmetry& symmetry = {}) {
   std::vector<ResolutionLevel> levels;
@@ -40,7 +40,7 @@ inline SolvedFields solved(const Model& model, const Discretisation& discretisat
   return solve_fields(model, discretisation, state, instruments);
 }
 
-/// Of a velocity of a sphere given by coefficients about its centre: that of the centre.
+/// Velocity of the centre of a sphere, from the coefficients of the velocity about its centre.
 inline Vector3 translation(const Matrix& velocity) {
   return velocity.row(0).transpose() / std::sqrt(4.0 * std::numbers::pi);
 }

@@ -27,7 +27,7 @@ inline Matrix translated(Matrix position, const Vector3& by) {
   return position;
 }
 
-/// Shape (33): ρ = 1 + 0.2 exp(−3 Re Y_3^2). Not band-limited: what the order cannot hold is cut off.
+/// Shape (33): ρ = 1 + 0.2 exp(−3 Re Y_3^2). Not band-limited: degrees above the order are cut off.
 inline Matrix shape_33(int order) {
   const SphereTransform transform(order, make_grid(3 * order));
   const Vector y = transform.synthesize(harmonic(order, 3, 2)) / std::numbers::sqrt2;
@@ -47,8 +47,8 @@ inline Matrix dimpled_disc(int order, double c) {
   return transform.analyze(points);
 }
 
-/// ρ = 1 + 0.15 Y_{k,k} + chirality · 0.1 (Y_{k+1,−k} + Y_{3,0}), k = fold: the turns by 2π/k, and mirrors y and z
-/// where nothing is chiral. Not band-limited.
+/// ρ = 1 + 0.15 Y_{k,k} + chirality · 0.1 (Y_{k+1,−k} + Y_{3,0}), k = fold: the turns by 2π/k, and mirrors y and z if
+/// chirality is zero. Not band-limited.
 inline Matrix star_shape(int order, int fold, double chirality) {
   const SphereTransform transform(order, make_grid(3 * order, 240));
   const Vector radius =

@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(every_task_is_done_once_and_counted) {
 }
 
 BOOST_AUTO_TEST_CASE(as_many_run_at_once_as_there_are_threads) {
-  // Each waits for the other, but not for ever.
+  // Each waits for the other, but only for a limited time.
   const auto meet = [](bool worthwhile) {
     std::atomic<int> arrived = 0, met = 0;
     vehd::Instruments instruments;

@@ -9,7 +9,7 @@
 /// Points on and off a membrane.
 namespace vehd::testing {
 
-/// Directions all over the sphere, both poles and a close neighbour of one among them.
+/// Directions all over the sphere, including both poles and a close neighbour of one.
 inline GridAngles scattered_angles(int count) {
   GridAngles angles{Vector(count + 3), Vector(count + 3)};
   angles.theta.head(3) << 0.0, std::numbers::pi, 1e-9;

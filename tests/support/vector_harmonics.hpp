@@ -5,7 +5,7 @@
 
 namespace vehd::testing {
 
-/// Coefficients of the three vector harmonics of the unit sphere that Y_nm makes.
+/// Coefficients of the three vector harmonics of the unit sphere for one Y_nm.
 struct VectorHarmonics {
   Matrix v;  ///< ∇Y − (n+1) Y r̂
   Matrix w;  ///< ∇Y + n Y r̂

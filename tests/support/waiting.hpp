@@ -4,7 +4,7 @@
 #include <functional>
 #include <thread>
 
-/// Whether something comes true before `most` has passed: long enough for any machine, and only waited for where
+/// Whether a condition becomes true before `most` has passed: a limit long enough for any machine, and reached only if
 /// something is wrong.
 inline bool comes_true(const std::function<bool()>& condition, std::chrono::seconds most) {
   const auto deadline = std::chrono::steady_clock::now() + most;

@@ -12,17 +12,17 @@ namespace {
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
 
-const Vector3 turning(0.2, 0.9, -0.4);  ///< ω of the points of given (θ, φ)
-constexpr double material_share = 0.4;  ///< of it, with which the membrane turns
+const Vector3 turning(0.2, 0.9, -0.4);  ///< ω of the points of fixed (θ, φ)
+constexpr double material_share = 0.4;  ///< fraction of ω with which the membrane rotates
 constexpr double begin = 0.5, end = 1.5;
 
-/// Coefficients of the unit sphere of which the points have turned by ω t.
+/// Coefficients of the unit sphere whose points have rotated by ω t.
 Eigen::MatrixXd turned(double time) {
   const Matrix3 turn = Eigen::AngleAxisd(turning.norm() * time, turning.normalized()).toRotationMatrix();
   return shapes::project(1, [](const vehd::meshes::Point& r) { return r; }) * turn.transpose();
 }
 
-/// A sphere that turns, its points faster than its material, with V_m = start·x at first.
+/// A rotating sphere, its points faster than its material, with initial V_m = start·x.
 CheckInput turning_sphere(const Vector3& start) {
   CheckInput input;
   input.position = turned(end);
@@ -48,7 +48,7 @@ CheckInput turning_sphere(const Vector3& start) {
   return input;
 }
 
-/// V_m = a·x with C_m (a' − s ω × a) = −G_m a + κ (3E/2 − a), by the rule of Runge and Kutta in many steps.
+/// V_m = a·x with C_m (a' − s ω × a) = −G_m a + κ (3E/2 − a), by Runge–Kutta with many steps.
 Vector3 exact_potential(const CheckInput& input, Vector3 a) {
   const Physics& physics = input.physics;
   const double in = physics.conductivity_in, out = physics.conductivity_out, kappa = 2.0 * in * out / (in + 2.0 * out);

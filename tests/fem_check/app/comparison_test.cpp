@@ -17,7 +17,7 @@ namespace {
 
 constexpr double fine_error = 1e-4, solver_error = 1e-6;
 
-/// A field with the values 1 … n over equal weights.
+/// A field with the values 1 … n and equal weights.
 Eigen::MatrixXd field(double factor = 1.0) { return factor * Vector::LinSpaced(50, 1.0, 50.0).transpose(); }
 
 Level level(double error, long n_unknowns) {
@@ -28,7 +28,7 @@ Level level(double error, long n_unknowns) {
   return result;
 }
 
-/// Three levels whose error falls by 10, the outer sphere without an effect.
+/// Three levels with errors falling by a factor of 10; the outer sphere has no effect.
 LevelSequence levels() {
   LevelSequence sequence;
   sequence.levels = {level(100 * fine_error, 1000), level(10 * fine_error, 8000), level(fine_error, 64000)};
@@ -37,7 +37,7 @@ LevelSequence levels() {
   return sequence;
 }
 
-/// Boundary integrals that are right to 1e-4.
+/// Boundary-integral results with an error of 1e-4.
 FieldQuestion question() {
   FieldQuestion result;
   result.name = result.label = result.values = "q";
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(right_numbers_agree_and_errors_are_what_levels_and_orders_d
   BOOST_TEST((result.verdict == Verdict::agree));
   BOOST_TEST(result.difference.l2 == fine_error, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(result.levels_change.l2 == 9.0 * fine_error, boost::test_tools::tolerance(1e-3));
-  // Not the ninth of it that is left if errors go on falling by 10: how fast they fall is known from two changes alone.
+  // Not the ninth that would remain if errors kept falling by 10: two changes do not establish the rate.
   BOOST_TEST(result.fem_error() == 9.0 * fine_error, boost::test_tools::tolerance(1e-2));
   BOOST_TEST(result.bie_error() == fine_error, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(result.order.value() == 3.0 * std::log(10.0) / std::log(8.0), boost::test_tools::tolerance(1e-3));
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(wrong_numbers_do_not) {
   }
 }
 
-// One right order used to suffice: the other half of the verdict could not fail.
+// Both orders must be checked: if one correct order sufficed, the other half of the verdict could not fail.
 BOOST_AUTO_TEST_CASE(neither_order_may_be_random) {
   FieldQuestion random = question();
   random.bie_high = Eigen::MatrixXd::Random(1, 50);
@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(errors_above_what_is_required_decide_nothing) {
   BOOST_TEST((verdict(coarse) == Verdict::undecided));
 }
 
-// A small field is a remainder of large ones: half of it wrong is not hidden by the size of those.
+// A small field is a remainder of large ones: an error of half of it must not be hidden by their size.
 BOOST_AUTO_TEST_CASE(small_fields_are_judged_by_their_own_size) {
   FieldQuestion small = question();
   small.natural_size = 30.0e5;
@@ -118,12 +118,12 @@ BOOST_AUTO_TEST_CASE(zero_is_judged_by_the_natural_size) {
   BOOST_TEST((compare(zero, rounded, {0.02}).verdict == Verdict::disagree), "27 times an error is no zero");
 }
 
-// What remains of terms that cancel is known to the required share of these, and to no more.
+// The remainder of cancelling terms is only as accurate as the required share of those terms.
 BOOST_AUTO_TEST_CASE(vanishing_fields_are_judged_by_the_natural_size) {
   for (const double size : {0.0, 1e-12, 1e-6, 1e-3}) {
     FieldQuestion remains = question();
     remains.natural_size = 30.0 / std::max(size, 1e-12);
-    // Errors of a twentieth of the field, or of 5e-14 of the natural size where it is zero.
+    // Errors of a twentieth of the field, or of 5e-14 of the natural size if the field is zero.
     remains.bie_high = field(1.05);
     if (size == 0.0) {
       for (Eigen::MatrixXd* numbers : {&remains.judged, &remains.bie}) numbers->setZero();
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(vanishing_fields_are_judged_by_the_natural_size) {
   BOOST_TEST((verdict(whole) == Verdict::undecided));
 }
 
-// Rounding and solvers that stop leave something that no change shows: two equal computations have the same.
+// Rounding and stopping tolerances of the solvers leave errors that no change shows: two equal computations share them.
 BOOST_AUTO_TEST_CASE(rounding_and_solvers_are_no_disagreement) {
   const auto with_difference = [](double share, double solver_tolerance) {
     FieldQuestion asked = question();
@@ -151,14 +151,14 @@ BOOST_AUTO_TEST_CASE(rounding_and_solvers_are_no_disagreement) {
   BOOST_TEST((with_difference(1e-8, 0.0) == Verdict::disagree));
   BOOST_TEST((with_difference(1e-8, 1e-7) == Verdict::agree));
   BOOST_TEST((with_difference(1e-5, 1e-7) == Verdict::disagree));
-  // Of a small remainder as of the terms that it is made of.
+  // For a small remainder the rounding error is relative to its terms.
   FieldQuestion remains = question();
   remains.natural_size = 30.0e9;
   remains.judged = remains.bie = remains.bie_high = field(1.5);
   BOOST_TEST((verdict(remains) == Verdict::agree));
 }
 
-// A force that is not resolved as a field may be known by its work.
+// A force that is not resolved as a field may still be determined by its work.
 BOOST_AUTO_TEST_CASE(undecided_force_does_not_count_beside_its_work) {
   FieldQuestion force = question();
   force.has_work_row = true;
@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(undecided_force_does_not_count_beside_its_work) {
   BOOST_TEST(compare(force, levels(), {0.02}).counts());
 }
 
-// At a ratio of conductivities of 1e7 a residual of 1e-11 left 5 % of q.
+// At a conductivity ratio of 1e7 a residual of 1e-11 left an error of 5 % in q.
 BOOST_AUTO_TEST_CASE(error_of_the_linear_solver_is_measured) {
   LevelSequence sequence = levels();
   sequence.rough = level(0.5, 1000);
@@ -192,8 +192,8 @@ BOOST_AUTO_TEST_CASE(background_does_not_hide_what_is_left) {
   BOOST_TEST((compare(without(asked, background), shifted, {0.02}).verdict == Verdict::disagree));
 }
 
-// As a functional on smooth displacements a force is known to more digits than as a field: waves of high degree count
-// for nothing, and a thousandth that they would hide is seen.
+// A force is more accurate as a functional on smooth displacements than as a field: waves of high degree do not
+// contribute, so an error of a thousandth that they would hide is visible.
 BOOST_AUTO_TEST_CASE(work_on_smooth_displacements_is_that_of_the_whole_force) {
   const Discretisation space = discretise(shapes::shape_33(), {.cells_per_edge = 2, .shell_layers = 2, .degree = 3});
   const SurfacePoints points = space.quadrature_points(10);
@@ -220,7 +220,8 @@ BOOST_AUTO_TEST_CASE(work_on_smooth_displacements_is_that_of_the_whole_force) {
 // ∫ f_λ·w dA = −∫ λ ∇_γ·w dA: on the unit sphere f_λ of λ = z + z² is ∇_γ λ − 2 λ n.
 BOOST_AUTO_TEST_CASE(work_of_a_tension_force_follows_from_the_tension) {
   const Eigen::MatrixXd sphere = shapes::project(1, [](const vehd::meshes::Point& r) { return r; });
-  const Discretisation space = discretise(vehd::meshes::FrozenShape(sphere), {.cells_per_edge = 2, .shell_layers = 2, .degree = 5});
+  const Discretisation space =
+      discretise(vehd::meshes::FrozenShape(sphere), {.cells_per_edge = 2, .shell_layers = 2, .degree = 5});
   const SurfacePoints points = space.quadrature_points(10);
   Eigen::MatrixXd tension(1, points.size());
   FieldQuestion asked = question();
@@ -245,15 +246,15 @@ BOOST_AUTO_TEST_CASE(numbers_without_finite_elements_are_judged_by_the_boundary_
   BOOST_TEST((verdict(asked) == Verdict::disagree));
 }
 
-// The last change is no larger than the error itself where levels come near in a row.
+// If levels agree successively, the last change is no larger than the error itself.
 BOOST_AUTO_TEST_CASE(difference_of_the_size_of_the_last_change_is_no_disagreement) {
   FieldQuestion asked = question();
   for (Eigen::MatrixXd* numbers : {&asked.judged, &asked.bie, &asked.bie_high}) *numbers *= 1.0 + 9.0 * fine_error;
   BOOST_TEST((verdict(asked) == Verdict::agree));
 }
 
-// Of a field that elements of rising degree follow no better than finer ones, the last change is less than what is
-// left.
+// If raising the degree of the elements converges no faster than refining them, the last change is smaller than the
+// remaining error.
 BOOST_AUTO_TEST_CASE(slow_convergence_leaves_more_than_the_last_change) {
   const auto with_order = [](double order) {
     LevelSequence slow = levels();
@@ -269,11 +270,11 @@ BOOST_AUTO_TEST_CASE(slow_convergence_leaves_more_than_the_last_change) {
     BOOST_TEST((result.verdict != Verdict::disagree), order);
   }
   BOOST_TEST(with_order(4.0).tail == 1.0);
-  // An order below one is none.
+  // An order below one is treated as one.
   BOOST_TEST(with_order(0.1).tail == with_order(1.0).tail, boost::test_tools::tolerance(1e-2));
 }
 
-// A field that elements have hardly begun to follow may seem to converge, by changes that are less than its error.
+// An unresolved field may seem to converge, with changes smaller than its error.
 BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
   const auto with_errors = [](double coarse, double middle, double fine) {
     LevelSequence sequence = levels();
@@ -290,8 +291,8 @@ BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
   BOOST_TEST((near.verdict == Verdict::disagree));
 }
 
-// Elements know the work of f_b to 1e-11, so a difference of all that degree p misses meets the estimate from the other
-// degree alone, which misses something as well.
+// The elements give the work of f_b to 1e-11. The difference is then the whole truncation error of degree p, while the
+// estimate comes from the other degree, which has a truncation error too.
 BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_leaves) {
   const auto with_errors = [](int degree, double error, int other, double other_error) {
     FieldQuestion asked = question();
@@ -307,19 +308,19 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_le
   const auto geometric = [&](double rate, int degree, int other) {
     return with_errors(degree, std::pow(rate, degree), other, std::pow(rate, other));
   };
-  // Errors that fall at one rate from all of the field at degree 0 are found exactly.
+  // The estimate is exact for errors that decrease geometrically from the whole field at degree 0.
   for (const double rate : {0.86, 0.88}) {
     BOOST_TEST(geometric(rate, 24, 28).bie_error() == std::pow(rate, 24), boost::test_tools::tolerance(1e-6));
   }
   for (const double rate : {0.3, 0.7}) BOOST_TEST((geometric(rate, 24, 28).verdict == Verdict::agree), rate);
-  // Slower ones, by a power of the degree, after most of the error has fallen fast.
+  // Slower decay, by a power of the degree, after a fast initial decrease of the error.
   for (const int other : {14, 18, 24}) {
     const double error = 3e-7, left = error * std::pow(12.0 / other, 4.1);
     const FieldComparison result = with_errors(12, error, other, left);
     BOOST_TEST((result.verdict == Verdict::agree), other);
     BOOST_TEST(result.bie_error() == error, boost::test_tools::tolerance(0.03));
   }
-  // Coefficients that fall faster say more.
+  // Faster decay of the coefficients gives a sharper estimate.
   FieldQuestion bulbs = question();
   bulbs.bie_high = field(1.022);
   bulbs.degrees = {24, 28, {}};
@@ -328,11 +329,11 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_le
   BOOST_TEST((compare(bulbs, levels(), {0.05}).verdict == Verdict::agree));
   bulbs.degrees.decay = 0.95;
   BOOST_TEST((compare(bulbs, levels(), {0.05}).verdict == Verdict::undecided));
-  // A change that errors falling to the other degree cannot make says nothing.
+  // A change that is inconsistent with errors decreasing to the other degree gives no estimate.
   const FieldComparison unknown = with_errors(40, 0.44, 42, 0.40);
   BOOST_TEST((unknown.verdict == Verdict::undecided));
   BOOST_TEST(unknown.bie_error() >= 0.99);
-  // A lower degree misses more than degree p: the change is larger than the error already, where it is small.
+  // A lower degree has a larger error than degree p: the change itself exceeds the error of p if that is small.
   BOOST_TEST(geometric(0.9, 64, 48).bie_error() == std::pow(0.9, 48) - std::pow(0.9, 64),
              boost::test_tools::tolerance(1e-6));
   BOOST_TEST(geometric(0.965, 64, 62).bie_error() == std::pow(0.965, 64), boost::test_tools::tolerance(1e-6));
@@ -341,7 +342,7 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_le
 BOOST_AUTO_TEST_CASE(decay_of_coefficients_is_that_from_band_to_band) {
   const Discretisation space = discretise(shapes::shape_33(), {.cells_per_edge = 2, .shell_layers = 2, .degree = 3});
   const ComparisonPlaces places{space.quadrature_points(4)};
-  // Amplitude r^n/√(2n+1) of each coefficient: r^n of each degree.
+  // Amplitude r^n/√(2n+1) of each coefficient, hence r^n in each degree.
   const auto series = [](int degree, double rate) {
     Eigen::MatrixXd values((degree + 1) * (degree + 1), 1);
     for (int n = 0; n <= degree; ++n) {

@@ -12,8 +12,8 @@ BOOST_AUTO_TEST_SUITE(questions)
 
 namespace {
 
-/// V_m = z on the unit sphere, dV_m/dt = z by boundary integrals, of which they have `truncation` from a conductance
-/// that the file does not hold.
+/// V_m = z on the unit sphere with dV_m/dt = z from boundary integrals; the part `truncation` of it comes from a
+/// conductance that the file does not contain.
 CheckInput porous_sphere(double truncation) {
   CheckInput input;
   input.position = shapes::project(1, [](const meshes::Point& r) { return r; });
@@ -25,7 +25,7 @@ CheckInput porous_sphere(double truncation) {
   return input;
 }
 
-/// Of elements that have all but a share of the current that boundary integrals charge the membrane with.
+/// Levels whose elements lack a share of the current with which the boundary integrals charge the membrane.
 LevelSequence levels_without(double share, const CheckInput& input, const SurfacePoints& points) {
   Level level;
   level.n_unknowns = 1000;
@@ -38,7 +38,7 @@ LevelSequence levels_without(double share, const CheckInput& input, const Surfac
 
 }  // namespace
 
-// Pores that open on a small part of the membrane have a conductance of higher degree than the run.
+// The conductance of pores that open on a small part of the membrane has a higher degree than the run.
 BOOST_AUTO_TEST_CASE(conductance_of_pores_beyond_the_degree_of_the_run_is_an_error_of_the_run) {
   const Discretisation space = discretise(unit_sphere(), {.degree = 2});
   const ComparisonPlaces places{space.quadrature_points(6), 1.0, Vector3::Zero()};

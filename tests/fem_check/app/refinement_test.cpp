@@ -53,8 +53,8 @@ BOOST_AUTO_TEST_CASE(strongly_bent_shapes_have_smaller_cells_and_bowls_higher_de
   BOOST_TEST(highest_degree(of_bowl) > highest_degree(Refinement::following(ellipsoid(1.0, 0.2))));
 }
 
-// The mean of Y_n0 over the sphere, and its product with another harmonic, are zero: what a rule finds instead comes
-// from between its points.
+// The mean of Y_n0 over the sphere and its product with another harmonic are zero: a nonzero quadrature result is an
+// aliasing error.
 BOOST_AUTO_TEST_CASE(points_of_the_comparison_resolve_waves_of_a_degree) {
   const auto mean_of = [](int degree, int points_per_edge, int cells_per_edge) {
     const Discretisation space =
@@ -74,8 +74,8 @@ BOOST_AUTO_TEST_CASE(points_of_the_comparison_resolve_waves_of_a_degree) {
   BOOST_TEST(mean_of(96, 12, refinement.cells_per_edge) > 1e-2);
 }
 
-// A force that is a harmonic of degree 40 along one direction pulls the sphere nowhere: ∫ f dA = 0. What a rule with
-// too few points finds instead drags it along.
+// A force that is a harmonic of degree 40 along one direction has ∫ f dA = 0. Too few quadrature points give a spurious
+// net force that drags the sphere along.
 BOOST_AUTO_TEST_CASE(given_forces_are_integrated_at_points_that_resolve_their_waves) {
   constexpr int degree = 40;
   Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero((degree + 1) * (degree + 1), 1);
@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(given_forces_are_integrated_at_points_that_resolve_their_wa
   BOOST_TEST(resolved < 1e-4);
 }
 
-// The best polynomials of rising degree on a cell leave less than the last of them adds, of even and of odd functions.
+// Best approximation of rising degree on a cell: the remainder is below the last increment, for even and odd functions.
 BOOST_AUTO_TEST_CASE(last_two_degrees_of_a_quick_check_differ_by_more_than_the_last_leaves) {
   constexpr int n_intervals = 2000, highest = 20;
   constexpr double width = 2.0 / n_intervals;

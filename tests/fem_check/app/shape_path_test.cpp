@@ -16,7 +16,7 @@ Eigen::MatrixXd at_rest() { return Eigen::MatrixXd::Constant(4, 3, 0.25); }
 double coefficient(double time, int degree) { return 2.0 + std::pow(time - 0.3, degree); }
 double rate(double time, int degree) { return degree * std::pow(time - 0.3, degree - 1); }
 
-/// x grows like a power of time; the material moves by half of it.
+/// x is proportional to a power of time; the material moves by half of x.
 InTime snapshots(const std::vector<double>& times, int degree) {
   InTime result;
   result.shape_times = Eigen::Map<const Eigen::VectorXd>(times.data(), static_cast<Eigen::Index>(times.size()));

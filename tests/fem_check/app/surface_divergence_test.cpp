@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_CASE(position_has_two_rotation_and_translation_none) {
   BOOST_TEST(surface_divergence(x, moved, directions).cwiseAbs().maxCoeff() < 1e-13);
 }
 
-// On the sphere ∇_γ·v of v = A x is tr A − n·A n.
+// For v = A x on the sphere, ∇_γ·v is tr A − n·A n.
 BOOST_AUTO_TEST_CASE(linear_flow_on_the_sphere) {
   const Eigen::Matrix3d gradient{{0.1, 0.7, -0.2}, {0.3, 0.4, 0.0}, {0.5, -0.6, -0.5}};
   const auto sphere = [](const vehd::meshes::Point& r) { return vehd::meshes::Point(2.0 * r); };

@@ -11,7 +11,7 @@ namespace {
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
 
-/// By how much w·∇_γ u of u = c·x and a w that is not tangential is off on the sphere, the points on those of a mesh.
+/// Error of w·∇_γ u on the sphere, for u = c·x and a w that is not tangential, at the points of a mesh.
 double error_on_the_sphere(int points_per_edge) {
   const Discretisation space = discretise(unit_sphere(), {.cells_per_edge = 1, .shell_layers = 1, .degree = 2});
   const SurfacePoints rule = space.quadrature_points(points_per_edge);

@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_CASE(of_two_runs_started_together_one_is_refused) {
   for (int trial = 0; trial < 6; ++trial) {
     RunningProgram first(run.command), second(run.command);
     const ProgramResult a = first.wait(), b = second.wait();
-    // The second may as well find the first complete and have nothing to do.
+    // The second run may also find the first one complete and have nothing to do.
     const auto refused = [&](const ProgramResult& result) {
       return result.exit_code == 1 &&
              result.errors ==
@@ -50,8 +50,8 @@ BOOST_AUTO_TEST_CASE(a_file_system_without_locks_is_no_second_run) {
         with_fault(fault, vehd_command({"run", work.directory / "base.toml", "-o", work.directory / "run"})));
     BOOST_TEST(run.exit_code == 1);
     BOOST_TEST(run.errors.starts_with(work.directory / "run" + text), run.errors);
-    // Workers of a sweep go by their claims alone. Locks of its own HDF5 does without only if it is not supported at
-    // all.
+    // Workers of a sweep rely only on their claims. HDF5 ignores the failure of its own file locks only if locking is
+    // not supported.
     std::vector<std::string> command = with_fault(fault, work.command({"--jobs", "2"}));
     if (problem == ENOLCK) {
       const ProgramResult locked = run_command(command);

@@ -12,7 +12,7 @@
 
 namespace {
 
-/// A run that was stopped on its way, to damage and to resume.
+/// A run that was stopped before its end, to be damaged and resumed.
 struct StoppedRun : FaultyRun {
   std::string checkpoint = output + "/checkpoint.h5";
   std::string history = output + "/history.csv";
@@ -36,7 +36,7 @@ struct StoppedRun : FaultyRun {
     BOOST_TEST((file_text(snapshots) == snapshots_before));
   }
 
-  /// Damages a file, lets `check` look at it, and mends it.
+  /// Damages a file, calls `check`, and restores the file.
   static void damage(const std::string& path, const std::function<void(std::string&)>& change,
                      const std::function<void()>& check) {
     const std::string original = file_text(path);
@@ -52,7 +52,7 @@ std::function<void(std::string&)> flip(std::size_t place, int bit) {
   return [=](std::string& text) { text[place] = static_cast<char>(text[place] ^ (1 << bit)); };
 }
 
-/// Where these numbers lie in the file.
+/// Position of these numbers in the file.
 std::size_t place_of(const vehd::Vector& values, const std::string& file) {
   const std::size_t place = file.find(std::string(reinterpret_cast<const char*>(values.data()), 16));
   BOOST_TEST_REQUIRE(place != std::string::npos);
@@ -120,7 +120,7 @@ BOOST_FIXTURE_TEST_CASE(other_schema_versions_are_not_resumed, StoppedRun) {
 }
 
 BOOST_FIXTURE_TEST_CASE(altered_number_of_a_snapshot_is_neither_resumed_nor_shown, StoppedRun) {
-  // Too short to be deflated.
+  // This dataset is too short to be deflated, so its numbers can be found in the file.
   const std::string dataset = "/snapshots/000001/coefficients/tension";
   const vehd::Vector tension = vehd::Hdf5Reader(snapshots).vector(dataset);
   const std::string message = snapshots + ": damaged or altered: " + dataset + " does not match its checksum";
@@ -147,7 +147,7 @@ BOOST_FIXTURE_TEST_CASE(any_flipped_bit_of_a_run_file_is_refused_or_harmless, St
     try {
       const vehd::RunReader run(path);
       const vehd::Matrix actual = run.snapshot(1).coefficients("x");
-      // The bit belonged to padding, to a description or to another snapshot.
+      // The flipped bit belonged to padding, to a description or to another snapshot.
       BOOST_TEST_REQUIRE((actual.array() == expected.array()).all());
     } catch (const vehd::InputError&) {
       ++refused;

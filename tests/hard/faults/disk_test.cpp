@@ -10,10 +10,10 @@ namespace {
 
 constexpr const char* scene_end = "3.0";
 
-/// The run has said in one line what is wrong, has lost nothing, and continues to the same result once it can.
+/// Requires that the run states the reason, loses nothing, and continues to the same result without the fault.
 void check_stop(const FaultyRun& run, const std::vector<std::string>& command, const std::string& reason) {
   const ProgramResult result = run_command(command);
-  // Before its first files there is nothing to continue.
+  // Before its first files are written there is nothing to continue.
   const bool begun = std::filesystem::exists(run.output + "/history.csv");
   BOOST_TEST((result.exit_code == 3 || (result.exit_code == 1 && !result.output.starts_with("completed"))),
              result.exit_code << result.errors);
@@ -25,7 +25,7 @@ void check_stop(const FaultyRun& run, const std::vector<std::string>& command, c
   std::filesystem::remove_all(run.output);
 }
 
-/// A dozen times, at random places of the work.
+/// Stops the run a dozen times, at random points of its work.
 void check_stops(const FaultyRun& run, const std::string& fault, std::pair<std::int64_t, std::int64_t> places,
                  const std::string& reason) {
   std::mt19937 random(7);
@@ -49,8 +49,8 @@ BOOST_AUTO_TEST_CASE(file_system_that_turns_read_only_stops_the_run_and_loses_no
   check_stops(run, "readonly ", {1, run.count_work().operations * 4 / 5}, "Read-only file system");
 }
 
-// The kernel's own limit, without the shim. Some OpenMP libraries need a kilobyte of shared memory before the program
-// begins: two blocks.
+// The kernel's own limit, without the shim. The smallest is two blocks, because some OpenMP libraries need a kilobyte
+// of shared memory before the program begins.
 BOOST_AUTO_TEST_CASE(limit_of_the_file_size_stops_the_run_and_loses_nothing) {
   const FaultyRun run(quick_scene(scene_end));
   for (const int blocks : {2, 64, 512, 1024}) {

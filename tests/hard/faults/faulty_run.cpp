@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Quick, and the same bits on every machine; with the policy set the program does not start itself anew.
+/// One thread is quick and gives the same bits everywhere; with the policy set the program does not restart itself.
 struct OneThread {
   OneThread() {
     ::setenv("OMP_NUM_THREADS", "1", 1);
@@ -23,7 +23,7 @@ struct OneThread {
 BOOST_TEST_GLOBAL_FIXTURE(OneThread);
 
 std::vector<std::string> with_fault(const std::string& fault, const std::vector<std::string>& command) {
-  // The sanitizers want to be loaded first, but all that they need is to be there.
+  // Sanitizers require to be loaded first, but it suffices that they are loaded.
   std::vector<std::string> result = {"env", "ASAN_OPTIONS=verify_asan_link_order=0:detect_leaks=0",
                                      "LD_PRELOAD=" VEHD_FAULT_SHIM, "VEHD_FAULT=" + fault};
   result.insert(result.end(), command.begin(), command.end());

@@ -21,10 +21,10 @@ struct FaultyRun : ReferenceRun {
   /// File operations and bytes of the run from its start to its end; leaves no files.
   [[nodiscard]] Work count_work() const;
 
-  /// Snapshots that the last checkpoint counts; 0 if there is none. Checks that what the directory holds is true: every
-  /// snapshot intact and that of the reference, no counted one missing, the history a beginning of the reference's.
+  /// Number of snapshots that the last checkpoint counts; 0 if there is none. Checks the directory: every snapshot is
+  /// intact and equals the reference, no counted one is missing, the history is a beginning of the reference's.
   [[nodiscard]] std::int64_t check_files() const;
 };
 
-/// `tolerance` instead of `dt`: steps and degrees of its own choice.
+/// A scene with `tolerance` instead of `dt`: the run chooses steps and degrees.
 std::string adaptive_scene();

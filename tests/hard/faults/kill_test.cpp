@@ -11,20 +11,20 @@
 
 namespace {
 
-/// `test_faults -- 200` is the long form.
+/// Number of kills; `test_faults -- 200` is the long form.
 int wanted_kills() {
   const auto& suite = boost::unit_test::framework::master_test_suite();
   return suite.argc > 1 ? std::stoi(suite.argv[1]) : 12;
 }
 
-/// Kills the run again and again, each time somewhere in what is left of it, until it is complete; then anew.
+/// Kills the run repeatedly, at random points of the remaining work, until it is complete; then starts it again.
 class Killer {
  public:
   explicit Killer(const std::string& scene) : run_(scene), work_(run_.count_work()) {}
 
   void kill(int count) {
     for (int number = 0; number < count;) {
-      // Two in three at a file operation: by the clock a write is rarely met.
+      // Two kills in three are at a file operation: a kill at a random time rarely meets a write.
       const bool hit = number % 3 == 0 ? kill_by_clock() : kill_at_operation();
       const std::int64_t accepted = run_.check_files();
       BOOST_TEST(accepted >= accepted_);
@@ -41,7 +41,7 @@ class Killer {
   }
 
  private:
-  /// Whether the run was still there to be killed.
+  /// Whether the run was still running when it was killed.
   static bool was_killed(RunningProgram& program) {
     const ProgramResult result = program.wait();
     BOOST_TEST((result.exit_code == -1 || result.exit_code == 0), result.errors);
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(chosen_steps_lose_nothing_and_reproduce_every_bit) {
   Killer(adaptive_scene()).kill(wanted_kills() / 3);
 }
 
-// Before the first row is there a run knows no more than its scene, and so does its companion.
+// Before its first row a run has only its scene, and so has its companion run.
 BOOST_AUTO_TEST_CASE(a_start_that_dies_before_its_first_row_is_made_again) {
   std::string scene = adaptive_scene();
   scene = scene.replace(scene.find("end_time = 6.0"), 14, "end_time = 0.5\nerror_bars = true");
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(a_start_that_dies_before_its_first_row_is_made_again) {
   BOOST_TEST(resumed > 0);
 }
 
-// The session that finds another degree writes all snapshots anew before its first step.
+// A session with another degree rewrites all snapshots before its first step.
 BOOST_AUTO_TEST_CASE(a_change_of_degree_loses_nothing_either) {
   const FaultyRun run(quick_scene("1.0"));
   const std::string begun = run.directory / "begun";
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(a_change_of_degree_loses_nothing_either) {
     std::filesystem::remove_all(run.output);
     std::filesystem::copy(begun, run.output, kAll);
     (void)run_command(run.command_with("kill " + std::to_string(moment(random))));
-    // Whatever degree it has, what was accepted is there.
+    // The accepted snapshots are present, whatever their degree.
     const vehd::RunReader accepted(run.output + "/run.h5");
     BOOST_TEST_REQUIRE(accepted.times().size() >= 3U);
     for (std::size_t snapshot = 0; snapshot < accepted.times().size(); ++snapshot) {

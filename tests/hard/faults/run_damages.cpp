@@ -40,7 +40,7 @@ class Damager {
  private:
   std::size_t below(std::size_t end) { return std::uniform_int_distribution<std::size_t>(0, end - 1)(random_); }
 
-  /// Of the files that are there.
+  /// One of the given files that exist.
   std::string any_of(std::vector<std::string> files) {
     std::erase_if(files, [&](const std::string& file) { return !std::filesystem::exists(folder_ / file); });
     return files[below(files.size())];
@@ -84,7 +84,7 @@ class Damager {
       default: {
         const std::size_t letter = below(lines[line].size());
         const char other = "0123456789.-e,n"[below(15)];
-        // The same letter is no damage.
+        // Writing the same letter would be no damage.
         lines[line][letter] = lines[line][letter] == other ? '7' : other;
         what = fmt::format("edited at column {}", letter + 1);
       }
@@ -160,13 +160,13 @@ class Damager {
     } else {
       values[below(values.size())] *= factor;
     }
-    // A zero stays what it is.
+    // A factor does not change zeros.
     if (values == before) values.front() += 1.0;
     H5Dwrite(handle.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
     return fmt::format("{} times {}", object, factor);
   }
 
-  /// One in place of whatever has its name: HDF5 1.10 does not write those of a group a second time.
+  /// Replaces any attribute of that name: HDF5 1.10 does not write attributes of a group a second time.
   std::string edit_attribute(hid_t file, const std::string& object) {
     const Hdf5Handle handle(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose);
     std::vector<std::string> names;

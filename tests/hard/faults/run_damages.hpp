@@ -4,11 +4,11 @@
 #include <random>
 #include <string>
 
-/// One damage to a folder of a run: a file with a bit flipped, cut or gone; rows of a table removed, exchanged or
-/// edited; datasets renamed, removed or with other values, attributes altered; a summary.json edited.
+/// A damage of the folder of a run: a file with a bit flipped, cut or removed; rows of a table removed, exchanged or
+/// edited; datasets renamed, removed or given other values, attributes altered; a summary.json edited.
 struct RunDamage {
   std::filesystem::path file;
-  std::string what;  ///< that was done to it
+  std::string what;  ///< description of the damage
 };
 
 /// Damages a file of the folder at a place that the generator chooses.

@@ -17,18 +17,18 @@
 #include "tests/support/files.hpp"
 #include "tests/support/scenes.hpp"
 
-// Folders of runs, damaged at many places: whatever is read of them is what the run wrote, or is refused by name, or is
-// said not to be known. All in this process, so a crash is one of the test.
+// Folders of runs, damaged at many places: each reader finds what the run wrote, or refuses with the name of the
+// folder, or notes what is not known. All readers run in this process, so a crash fails the test.
 
 namespace {
 
-/// `test_faults -- 200 1000` is the long form.
+/// Number of damages; `test_faults -- 200 1000` is the long form.
 int wanted_places() {
   const auto& suite = boost::unit_test::framework::master_test_suite();
   return suite.argc > 2 ? std::stoi(suite.argv[2]) : 60;
 }
 
-/// All that a reader has found, to be compared bit for bit.
+/// Checksum of all that a reader has found, to be compared bit for bit.
 class Findings {
  public:
   void add(const std::string& text) {
@@ -59,7 +59,7 @@ struct RunFolder {
   std::vector<std::filesystem::path> tables{};  ///< of the intact run
 };
 
-/// All that the pictures of a run show.
+/// Everything that the pictures of a run show.
 void plot(const RunFolder& folder, Findings& found) {
   const vehd::RunReader run = vehd::read_snapshots(folder.paths.snapshots(), found.notes);
   const vehd::Scene scene = vehd::read_scene_of(run);
@@ -93,12 +93,12 @@ void report(const RunFolder& folder, Findings& found) {
   found.add(file_text(folder.paths.report()));
 }
 
-/// As read_history of the module of Python.
+/// Reads the tables as read_history of the Python module does.
 void read_history(const RunFolder& folder, Findings& found) {
   for (const std::filesystem::path& table : folder.tables) found.add(vehd::read_table(table, found.notes));
 }
 
-/// Everything that vehd check takes of a run.
+/// Everything that vehd check reads of a run.
 void check(const RunFolder& folder, Findings& found) {
   for (const std::optional<std::string>& time : {std::optional<std::string>(), std::optional<std::string>("0.5")}) {
     const vehd::FrozenState frozen = vehd::read_frozen_state({folder.paths.snapshots(), {}}, time);
@@ -118,7 +118,7 @@ void check(const RunFolder& folder, Findings& found) {
   }
 }
 
-/// To the end of the run, or what is said of one that is complete.
+/// Continues the run to its end, or reads the summary of one that is complete.
 void resume(const RunFolder& folder, Findings& found) {
   const vehd::RunSession session(vehd::read_scene(folder.scene), folder.scene, folder.paths.directory, true);
   if (session.is_complete()) {
@@ -126,7 +126,8 @@ void resume(const RunFolder& folder, Findings& found) {
   } else {
     vehd::Interruption interruption;
     nlohmann::json summary = session.summarise(session.simulate(interruption, {}));
-    for (const char* key : {"seconds", "seconds_per_step", "seconds_of_parts", "peak_memory_bytes", "checksum"}) summary.erase(key);
+    for (const char* key : {"seconds", "seconds_per_step", "seconds_of_parts", "peak_memory_bytes", "checksum"})
+      summary.erase(key);
     found.add(summary.dump());
   }
   found.add(vehd::HistoryTable(folder.paths.history()));
@@ -138,7 +139,7 @@ void resume(const RunFolder& folder, Findings& found) {
 const std::map<std::string, void (*)(const RunFolder&, Findings&)> readers = {
     {"plot", plot}, {"report", report}, {"read_history", read_history}, {"check", check}, {"resume", resume}};
 
-/// "refused: why", or all that was found.
+/// "refused: reason", or the checksum of all that was found.
 std::string outcome(void (*reader)(const RunFolder&, Findings&), const RunFolder& folder, vehd::ReadingNotes& notes) {
   try {
     Findings found;
@@ -153,7 +154,7 @@ std::string outcome(void (*reader)(const RunFolder&, Findings&), const RunFolder
 /// A run to be damaged again and again.
 class Specimen {
  public:
-  /// @param steps  after which it is killed; 0: complete
+  /// @param steps  after which the run ends; 0: complete run
   Specimen(const std::string& scene, int steps) {
     write_text(directory_ / "scene.toml", scene);
     const vehd::RunSession session(vehd::read_scene(folder_.scene), folder_.scene, folder_.paths.directory, false);
@@ -194,7 +195,7 @@ class Specimen {
         BOOST_TEST((is_refused || found == intact_[name] || !notes.empty()), "is believed");
         n_refused_ += is_refused ? 1 : 0;
       }
-      // Writing on, or a page, is no damage.
+      // Files written by a reader, such as a continued run or a report, are no damage.
       std::filesystem::remove_all(folder_.paths.directory);
       std::filesystem::copy(directory_ / "damaged", folder_.paths.directory, recursive);
     }
@@ -233,7 +234,7 @@ std::string two_vesicles() {
 void damage_everywhere(Specimen& specimen, int places, unsigned seed) {
   std::mt19937 random(seed);
   for (int place = 0; place < places; ++place) specimen.damage(random);
-  // Damage that nobody sees proves nothing.
+  // The test is meaningless unless enough damage is noticed.
   BOOST_TEST(specimen.n_refused() > places);
 }
 

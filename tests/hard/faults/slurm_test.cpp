@@ -12,13 +12,13 @@ namespace {
 
 std::string output_of(const std::string& command) { return run_command({"sh", "-c", command}).output; }
 
-/// Asked for in so many words: who is root on a cluster has another Slurm there.
+/// Must be requested explicitly, because root on a cluster has another Slurm there.
 bool slurm_can_be_started() {
   return std::getenv("VEHD_OWN_SLURM") != nullptr && ::geteuid() == 0 &&
          run_command({"sh", "-c", "command -v slurmctld slurmd sbatch munged"}).exit_code == 0;
 }
 
-/// A real Slurm of this machine, for as long as it lives.
+/// A real Slurm on this machine, for the lifetime of the object.
 class OwnSlurm {
  public:
   OwnSlurm() {
@@ -41,7 +41,7 @@ class OwnSlurm {
   OwnSlurm(const OwnSlurm&) = delete;
   OwnSlurm& operator=(const OwnSlurm&) = delete;
 
-  /// Whether all jobs have ended before long.
+  /// Whether all jobs end within four minutes.
   static bool is_done() {
     return comes_true([] { return output_of("squeue -h | wc -l") == "0\n"; }, std::chrono::seconds(240));
   }
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(arrays_and_tasks_of_slurm_are_workers_of_one_sweep) {
   const std::string undisturbed = work.directory / "undisturbed";
   BOOST_TEST_REQUIRE(work.run({"--jobs", "2"}, undisturbed).exit_code == 0);
 
-  // An array; a member that is told to end asks for another turn.
+  // An array of jobs; a member that is ended by a signal is queued again.
   BOOST_TEST_REQUIRE(work.run({"--emit", "slurm"}).exit_code == 0);
   std::string script = file_text(work.output + "/sweep.sbatch");
   script.replace(script.find("--array=0-0"), 11, "--array=0-1");
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(arrays_and_tasks_of_slurm_are_workers_of_one_sweep) {
   BOOST_TEST(log.find("a signal came; the same command continues from here") != std::string::npos, log);
   BOOST_TEST(log.find("8 runs: 8 completed;") != std::string::npos, log);
 
-  // Tasks of srun.
+  // Workers as tasks of srun.
   std::filesystem::remove_all(work.output);
   std::vector<std::string> tasks = {"srun", "-N", "1", "-n", "2", "--overcommit"};
   for (const std::string& word : work.command({"--jobs", "1"})) tasks.push_back(word);

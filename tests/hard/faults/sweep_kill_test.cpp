@@ -7,7 +7,7 @@
 
 namespace {
 
-/// `test_faults -- 200` is the long form.
+/// Number of killed workers; `test_faults -- 200` is the long form.
 int wanted_worker_kills() {
   const auto& suite = boost::unit_test::framework::master_test_suite();
   return suite.argc > 1 ? std::stoi(suite.argv[1]) : 8;
@@ -17,7 +17,7 @@ int wanted_worker_kills() {
 
 BOOST_AUTO_TEST_SUITE(killed_workers)
 
-// Workers die at any moment, and now and then the one that has started them; runs are counted by what they leave.
+// Kills workers at random times, and one time in ten the process that started them.
 BOOST_AUTO_TEST_CASE(of_a_sweep_lose_no_row_and_double_none) {
   const int n_kills = wanted_worker_kills();
   const SweepWork work(quick_scene("6"));
@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(of_a_sweep_lose_no_row_and_double_none) {
       const std::vector<pid_t> workers = work.workers();
       if (workers.empty() || program.ended()) continue;
       ++killed;
-      // A run at which 21 workers are killed is given up; where the machine is slow or busy none of them gets far
+      // A run whose workers are killed 21 times is given up; if the machine is slow or busy, none of them gets far
       // enough to finish it.
       if (one_in_ten(random) == 0 || ++killed_of_these == 20) {
         program.send(SIGKILL);
@@ -45,13 +45,13 @@ BOOST_AUTO_TEST_CASE(of_a_sweep_lose_no_row_and_double_none) {
       }
       ::kill(workers[random() % workers.size()], SIGKILL);
     }
-    // Complete before there were kills enough: anew.
+    // The sweep was complete before there were enough kills: start again.
     if (program.ended() && program.wait().exit_code == 0) std::filesystem::remove_all(work.output);
   }
   const ProgramResult result = work.run({"--jobs", "2"});
   BOOST_TEST(result.exit_code == 0, result.errors);
   BOOST_TEST((work.table() == work.table(undisturbed)));
-  // A run that two workers had at once would have rows of both.
+  // A run computed by two workers at once would have rows of both.
   for (const auto& row : work.table()) {
     if (row.back() == "run") continue;
     BOOST_TEST(file_text(work.output + "/runs/" + row.back() + "/history.csv") ==
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(of_a_sweep_lose_no_row_and_double_none) {
   }
 }
 
-// Says what a sweep costs beyond its runs; how long anything takes is asserted nowhere.
+// Prints the overhead of a sweep beyond its runs; no duration is asserted.
 BOOST_AUTO_TEST_CASE(of_many_short_runs_each_has_its_row) {
   const int n_runs = wanted_worker_kills() < 50 ? 20 : 1000;
   const SweepWork work(quick_scene("3"));

@@ -23,7 +23,7 @@ struct RunFolder {
   TemporaryDirectory directory;
   fs::path run = directory / "runs/a";
 
-  /// What a worker of another machine would leave.
+  /// Leaves the claim of a worker on another machine.
   void claim_elsewhere(int number) const {
     fs::create_directories(run);
     write_text(run / ("claim." + std::to_string(number)), "another machine");
@@ -39,7 +39,7 @@ struct RunFolder {
   }
 };
 
-/// A process that does something and then waits until it is killed.
+/// A process that does this work and then waits until it is killed.
 template <typename Work>
 pid_t waiting_process(const Work& work) {
   const pid_t process = ::fork();
@@ -100,7 +100,7 @@ BOOST_FIXTURE_TEST_CASE(of_many_that_claim_at_once_one_succeeds, RunFolder) {
 BOOST_FIXTURE_TEST_CASE(the_claim_of_a_process_that_has_ended_is_free_at_once, RunFolder) {
   const pid_t process = waiting_process([&] { return Claim::take(run); });
   BOOST_TEST(comes_true([&] { return fs::exists(run / "claim.1"); }, std::chrono::seconds(60)));
-  // However old its claim may look.
+  // The age of its claim does not matter.
   age_claim(1, 100000);
   BOOST_TEST(Claim::take(run) == nullptr);
   end_process(process);
@@ -116,7 +116,7 @@ BOOST_FIXTURE_TEST_CASE(on_another_machine_the_time_of_the_claim_decides, RunFol
   BOOST_TEST(Claim::take(run) == nullptr);
   age_claim(1, 310);
   BOOST_TEST(Claim::take(run) != nullptr);
-  // The last claim counts, however old those before it are.
+  // Only the last claim counts, whatever the age of those before it.
   claim_elsewhere(3);
   BOOST_TEST(Claim::take(run) == nullptr);
 }

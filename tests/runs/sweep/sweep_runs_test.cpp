@@ -35,7 +35,7 @@ BOOST_AUTO_TEST_CASE(many_scenes_have_as_many_names) {
 }
 
 BOOST_AUTO_TEST_CASE(what_the_whole_scene_refuses_is_refused_with_its_reason) {
-  // Each value is one of its key; a step beyond the end is none of this scene.
+  // Each value is valid for its key; the scene as a whole lacks a frequency if the waveform is "ac".
   const auto runs = runs_with(quick_scene(),
                               "\"electric.initial_Vm\" = {values = [\"zero\", \"steady\"]}\n"
                               "\"membrane.conductance\" = {values = [1.0]}\n"

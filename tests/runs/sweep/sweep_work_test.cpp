@@ -8,12 +8,12 @@
 #include "tests/support/files.hpp"
 #include "tests/support/scenes.hpp"
 
-// What a sweep does beside its runs, counted: it must stay the same for every run, however many there are.
+// Counts the work of a sweep besides its runs: per run it must stay the same, however many runs there are.
 BOOST_AUTO_TEST_SUITE(sweep_work)
 
 namespace {
 
-/// Reads and writes that this process has asked the system for.
+/// Number of read and write calls of this process.
 long reads_and_writes() {
   std::ifstream file("/proc/self/io");
   std::string name;
@@ -27,7 +27,7 @@ long counted(const Work& work) {
   const long before = reads_and_writes();
   work();
   const long after = reads_and_writes();
-  // To look at the count is counted as well.
+  // Reading the count is counted as well.
   return after - before - (reads_and_writes() - after);
 }
 
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(a_table_reads_each_result_twice_however_many_there_are) {
     return counted([&] { BOOST_TEST(write_sweep_table(sweep.paths, sweep.sweep, sweep.runs).completed == n); });
   };
   const long few = accesses(20), some = accesses(40), many = accesses(80);
-  // A read of a file and one that finds its end.
+  // Each file takes one read and another that finds its end.
   BOOST_TEST(some - few <= 20 * 4 + 4);
   BOOST_TEST(many - some <= 40 * 4 + 4);
   BOOST_TEST(many > 80);
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(a_worker_adds_a_result_to_what_a_run_writes_alone) {
     BOOST_TEST(alone > 20 * n);
     return counted([&] { sweep.work(); }) - alone;
   };
-  // Of each run the history is read for its last row, and result.json written.
+  // For each run the history is read for its last row, and result.json is written.
   BOOST_TEST(added_by_worker(5) - added_by_worker(2) <= 3 * 4);
 }
 
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(seconds_of_a_run_are_those_of_all_its_work) {
   const auto summary = nlohmann::json::parse(std::ifstream(directory / "summary.json"));
   const auto result = vehd::read_result(directory);
   BOOST_TEST_REQUIRE(result.has_value());
-  // The steps, and around them set-up and files.
+  // The time of a result includes set-up and files besides the steps.
   BOOST_TEST(result->seconds > summary["seconds"].get<double>());
 }
 

@@ -23,7 +23,7 @@ VesicleDiagnostics diagnostics_of_shape(const Matrix& position) {
   return diagnostics_of(model, start(model, discretisation_of(kOrder), position, 0.1));
 }
 
-/// Of V_m = z, without layers.
+/// Diagnostics for V_m = z, without layers.
 VesicleDiagnostics diagnostics_of_potential(const Matrix& position, const Model& model = {},
                                             const Matrix& velocity = {}) {
   const int order = order_of(position.rows());
@@ -46,7 +46,7 @@ VesicleDiagnostics diagnostics_of_potential(const Matrix& position, const Model&
 }
 
 Matrix rotated_about_y(const Matrix& position, double degrees) {
-  // Towards +z from +x, hence against the right-handed turn about +y.
+  // Turns +x towards +z, i.e. against the right-handed turn about +y.
   return position *
          Eigen::AngleAxisd(-degrees * std::numbers::pi / 180.0, Vector3::UnitY()).toRotationMatrix().transpose();
 }
@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(extents_are_those_of_the_surface_and_not_of_its_nodes) {
   BOOST_TEST(std::abs(d.extent_x - 2.0) < 1e-13);
   BOOST_TEST(std::abs(d.extent_y - 2.6) < 1e-13);
   BOOST_TEST(std::abs(d.extent_z - 4.0) < 1e-13);
-  // A tilted ellipsoid is as long along an axis as its support function says.
+  // The extents of a tilted ellipsoid follow from its support function.
   const VesicleDiagnostics tilted = diagnostics_of_shape(rotated_about_y(ellipsoid(kOrder, {2.0, 1.0, 1.0}), 30.0));
   BOOST_TEST(std::abs(tilted.extent_x - 2.0 * std::sqrt(4.0 * 0.75 + 0.25)) < 1e-13);
   BOOST_TEST(std::abs(tilted.extent_z - 2.0 * std::sqrt(4.0 * 0.25 + 0.75)) < 1e-13);
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(inclination_is_the_angle_of_the_long_axis_from_x_towards_z)
   }
 }
 
-// Rounding would choose between the long axes of a disc, and between the ends of one that stands on the plane.
+// Otherwise rounding would choose between the long axes of a disc, and between the ends of an axis normal to the plane.
 BOOST_AUTO_TEST_CASE(inclination_of_a_body_with_many_long_axes_is_that_of_the_one_in_the_plane) {
   for (const double degrees : {-80.0, -30.0, 0.0, 10.0, 45.0, 89.0}) {
     const Matrix disc = translated(rotated_about_y(ellipsoid(kOrder, {1.3, 1.3, 0.7}), degrees), {1.0, 2.0, 3.0});
@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(reduced_volume_is_one_on_the_sphere_and_ignores_size) {
 }
 
 BOOST_AUTO_TEST_CASE(spectrum_tail_is_the_share_of_degrees_above_two_thirds) {
-  // p = 12: degrees 9 to 12 are the tail, degree 0 (the place) does not count.
+  // p = 12: degrees 9 to 12 are the tail, degree 0 (the position) does not count.
   Matrix position = translated(sphere(kOrder), {4.0, 0.0, 0.0});
   BOOST_TEST(diagnostics_of_shape(position).spectrum_tail < 1e-15);
   position(coefficient_index(8, 3), 1) = 1e-3;
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(potential_and_charge_are_read_at_the_north_pole) {
   BOOST_TEST(std::abs(d.q_north + 0.5 * interior) < 1e-9);
 }
 
-// An ellipsoid bent into a horseshoe that opens along +x: its centroid lies in the gap, and so does the line.
+// An ellipsoid bent into a horseshoe that opens along +x: its centroid and the axis through it lie in the gap.
 BOOST_AUTO_TEST_CASE(where_the_axis_misses_the_membrane_nothing_is_read) {
   const SphereTransform transform(kOrder, make_grid(2 * kOrder));
   Matrix points = grid_directions(transform.grid());
@@ -178,14 +178,14 @@ BOOST_AUTO_TEST_CASE(integrals_are_taken_over_the_surface) {
   BOOST_TEST(std::abs(d.bending_energy_scaled / (4.0 * std::numbers::pi) - 1.0) < 1e-11);
 }
 
-// V_m = z of a leaning ellipsoid in a field that leans otherwise.
+// V_m = z on an ellipsoid, in fields along one of its axes and oblique to all of them.
 BOOST_AUTO_TEST_CASE(potential_is_read_at_both_poles_of_the_field) {
   const Vector3 axes(1.0, 1.3, 2.0), centre(4.0, -3.0, 1.0);
   for (const Vector3& field : {Vector3(0.0, 0.0, 2.0), Vector3(0.0, 0.0, -3.0), Vector3(1.0, 0.5, -0.2)}) {
     Model model;
     model.electric.emplace().field = field;
     const VesicleDiagnostics d = diagnostics_of_potential(translated(ellipsoid(kOrder, axes), centre), model);
-    // x = s e with |x/axes| = 1.
+    // A pole x = s e satisfies |x/axes| = 1.
     const double reach = 1.0 / field.cwiseQuotient(axes).norm();
     BOOST_TEST(std::abs(d.Vm_pole_plus - (centre.z() + reach * field.z())) < 1e-12);
     BOOST_TEST(std::abs(d.Vm_pole_minus - (centre.z() - reach * field.z())) < 1e-12);
@@ -195,7 +195,7 @@ BOOST_AUTO_TEST_CASE(potential_is_read_at_both_poles_of_the_field) {
   BOOST_TEST(without.aspect_ratio_field == 0.0);
 }
 
-// Translation and what slides along the surface are none of it.
+// Translation, rotation and sliding along the surface do not contribute.
 BOOST_AUTO_TEST_CASE(shape_rate_is_that_of_the_shape_alone) {
   const Matrix sphere = ellipsoid(kOrder, {2.0, 2.0, 2.0});
   Matrix3 rotation;

@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(velocity_without_constraint_falls_with_viscosity_and_adds_t
 }
 
 BOOST_AUTO_TEST_CASE(electric_force_enters_the_velocity_with_minus_sign) {
-  // f = f_b + f_λ − f_E: a sphere that conducts less than its surroundings is squeezed along the field.
+  // f = f_b + f_λ − f_E: a sphere that conducts less than its surroundings is compressed along the field.
   const Discretisation discretisation = discretisation_of(12);
   Model model = field_model();
   model.vesicles[0].inextensible = false;
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(result_is_reproducible_and_does_not_depend_on_threads) {
   BOOST_TEST((again.array() == shared.array()).all());
 }
 
-// A reference would dangle, whatever a run without sanitizers makes of it.
+// A reference would dangle, which a run without sanitizers might not show.
 static_assert(std::is_same_v<decltype(Membrane::fine), SphereTransform>);
 
 BOOST_AUTO_TEST_CASE(evaluation_outlives_the_discretisation_that_it_was_made_with) {

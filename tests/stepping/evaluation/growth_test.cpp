@@ -25,7 +25,7 @@ double growth_at_start(const Model& model, const Matrix& position) {
 
 BOOST_AUTO_TEST_SUITE(growth)
 
-// By a shear, at first.
+// The shape changes within radius/speed, with the largest normal speed at the start of a shear.
 BOOST_AUTO_TEST_CASE(wrinkles_of_a_compressed_membrane_grow_until_its_shape_has_changed) {
   const Model model = shear_model();
   const Matrix position = ellipsoid(kCompressedOrder, {2.0, 1.0, 1.0});

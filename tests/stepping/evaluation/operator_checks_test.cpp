@@ -30,7 +30,7 @@ EvolutionSetup setup_of(const Model& model, int order, double dt) {
   return {model, settings, {}, fixed_steps(dt)};
 }
 
-/// Draws the rim of a disc together.
+/// A model that contracts the rim of a disc.
 Model drawing_model() {
   Model model = relaxation_model(0.05);
   model.flow = axisymmetric_extension(1.0);
@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(both_layers_are_checked_against_what_they_must_give) {
   const double exactness = 1e-6;
   BOOST_TEST(check_of(12, shape, 1.15, kStokesLayer).error < exactness);
   BOOST_TEST(check_of(12, shape, 1.15, kLaplaceLayers).error < exactness);
-  // Half the nodes: an error that must be seen by either layer.
+  // Half the nodes: an error that either layer must show.
   BOOST_TEST(check_of(12, shape, 0.5, kStokesLayer).error > 1e-5);
   BOOST_TEST(check_of(12, shape, 0.5, kLaplaceLayers).error > 1e-5);
 }
@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(near_parts_are_seen_and_finer_quadrature_helps) {
 }
 
 BOOST_AUTO_TEST_CASE(truncation_is_told_from_quadrature) {
-  // Not band-limited: at order 10 the degrees left out dominate whatever the quadrature does.
+  // Not band-limited: at order 10 the truncation error dominates, whatever the quadrature.
   const Matrix shape = shape_33(10);
   const LayerCheck coarse = check_of(10, shape, 1.5, kStokesLayer);
   const LayerCheck fine = check_of(10, shape, 3.0, kStokesLayer);
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(quadrature_follows_the_distance_of_the_parts) {
   BOOST_TEST(near.evaluation().diagnostics.vesicles[0].quadrature_error < NumericalSettings{}.quadrature_tolerance);
   BOOST_TEST(near.evaluation().diagnostics.vesicles[0].separation < 1.0);
 
-  // Continued from that state it takes the same quadrature at once.
+  // Continued from that state, a run uses the same quadrature at once.
   Evolution continued(setup_of(relaxation_model(0.05), 12, 0.01), near.state(), instruments);
   continued.evaluate_start();
   BOOST_TEST((continued.evaluation().fields.vesicles[0].velocity == near.evaluation().fields.vesicles[0].velocity));

@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(spheres_have_the_viscosity_of_einstein_in_every_linear_flow
       model.vesicles[0].viscosity_ratio = ratio;
       const Rheology found = rheology_of(model, translated(sphere(8, 1.4), {0.4, -1.0, 2.0}));
       BOOST_TEST(std::abs(found.intrinsic_viscosity() - 2.5) < 1e-11, found.intrinsic_viscosity());
-      // 20π/3 μa³E, up to a pressure.
+      // Stresslet 20π/3 μa³E, up to a pressure.
       const Matrix3 strain = 0.5 * (flow.gradient + flow.gradient.transpose());
       const Matrix3 expected = 20.0 * kPi / 3.0 * model.viscosity * std::pow(1.4, 3) * strain;
       const Matrix3 pressure = found.moment().trace() / 3.0 * Matrix3::Identity();
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(spheres_have_the_viscosity_of_einstein_in_every_linear_flow
   }
 }
 
-// [η] = 5/2 (1 + 3α/7) for r = 1 + αP₂, whatever the viscosity inside: docs/suspensions.md.
+// [η] = 5/2 (1 + 3α/7) for r = 1 + αP₂, independent of the viscosity inside: docs/suspensions.md.
 BOOST_AUTO_TEST_CASE(viscosity_of_a_quasi_spherical_vesicle_has_the_slope_that_the_page_derives) {
   constexpr double kAmplitude = 1e-3;
   for (const double ratio : {1.0, 8.0}) {
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(bending_and_tension_exert_no_torque) {
   BOOST_TEST(asymmetry(fine.viscosity) < 1e-15);
 }
 
-// β = (k − 1)/(k + 2) of the conductivities where nothing is charged, −1/2 where the membrane has taken all of it.
+// β = (k − 1)/(k + 2), k the ratio of conductivities, for an uncharged membrane, −1/2 for a fully charged one.
 BOOST_AUTO_TEST_CASE(dipole_of_a_sphere_goes_from_that_of_its_inside_to_that_of_an_insulator) {
   constexpr double kRadius = 1.2;
   for (const double ratio : {0.2, 3.0}) {
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(several_vesicles_are_seen_from_the_centroid_of_all) {
   std::vector<Rheology> own;
   for (const VesicleDiagnostics& vesicle : e.diagnostics.vesicles) own.push_back(vesicle.rheology);
   const Rheology all = together(own);
-  // Over both surfaces at once, about that centroid.
+  // Integrated over both surfaces at once, about that centroid.
   Matrix3 electric = Matrix3::Zero();
   Vector3 force = Vector3::Zero(), dipole = Vector3::Zero();
   for (std::size_t a = 0; a < 2; ++a) {
@@ -144,12 +144,12 @@ BOOST_AUTO_TEST_CASE(several_vesicles_are_seen_from_the_centroid_of_all) {
   }
   BOOST_TEST((all.electric - electric).norm() < 1e-12 * electric.norm());
   BOOST_TEST((all.electric_force - force).norm() < 1e-13);
-  // Action and reaction.
+  // The forces between the two cancel: action and reaction.
   BOOST_TEST(own[0].electric_force.norm() > 100.0 * force.norm());
   BOOST_TEST((all.dipole - dipole).norm() < 1e-14);
   const double weight = 0.5 * own[1].volume * Vector3(0.1, 0.2, -1.0).norm();
   BOOST_TEST(std::abs(all.other_force.norm() - weight) < 1e-10 * weight);
-  // Elsewhere and seen along other axes everything goes along.
+  // Under a translation and a rotation all quantities transform accordingly.
   const Matrix3 rotation = general_rotation();
   std::vector<Rheology> moved;
   for (const Rheology& one : own) moved.push_back(rotated(rotation, {3.0, 1.0, -2.0}, one));

@@ -1,8 +1,7 @@
-#include "bie/stepping/evaluation/evaluation.hpp"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "bie/stepping/evaluation/evaluation.hpp"
 #include "tests/stepping/stimson_jeffery.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
@@ -14,7 +13,7 @@ BOOST_AUTO_TEST_SUITE(several_fields)
 
 namespace {
 
-/// Membranes that conduct nothing in a field along z, conductivity σ_i/σ_e = 10.
+/// Membranes without conductance in a field along z, conductivity σ_i/σ_e = 10.
 Model in_axial_field(std::size_t n) {
   Model model = relaxation_model(0.1);
   set_electric(model, {{0.0, 0.0, 1.0}, 10.0, 1.0, 1.0}, {1.0, 0.0});
@@ -25,7 +24,7 @@ Vector3 total_force(const Membrane& membrane, const Matrix& force) {
   return membrane.fine.synthesize(force).transpose() * membrane.surface.quadrature;
 }
 
-/// ∫ x × f dA.
+/// Total torque ∫ x × f dA.
 Vector3 total_torque(const Membrane& membrane, const Matrix& force) {
   const Matrix values = membrane.fine.synthesize(force);
   Vector3 torque = Vector3::Zero();
@@ -47,7 +46,7 @@ Model full_model() {
 
 }  // namespace
 
-// Force of the field over the drag of Stimson and Jeffery.
+// The exact speed is the force of the field over the drag of Stimson and Jeffery.
 BOOST_AUTO_TEST_CASE(spheres_in_an_axial_field_approach_each_other_with_the_exact_speed) {
   struct Row {
     double gap, charged, uncharged;
@@ -114,13 +113,13 @@ BOOST_AUTO_TEST_CASE(forces_between_two_shapes_have_no_resultant_and_the_torque_
     torque += total_torque(membrane, f.force_electric);
     dipole += membrane.surface.position.transpose() *
               Vector(membrane.fine.synthesize(f.charge)).cwiseProduct(membrane.surface.quadrature);
-    // What degree 16 leaves out of the forces.
+    // Truncation error of the forces at degree 16.
     BOOST_TEST(total_force(membrane, f.force_tension).norm() < 3e-5);
     BOOST_TEST(total_torque(membrane, f.force_tension).norm() < 5e-5);
   }
   BOOST_TEST(scale > 1e-3);
   BOOST_TEST(electric.norm() < 2e-4 * scale);
-  // The uniform field turns the dipole of both, V_m is zero; f_E is minus the force on a membrane.
+  // The uniform field exerts a torque on the dipole of both, V_m is zero; f_E is minus the force on a membrane.
   const Vector3 expected = -dipole.cross(model.electric->field);
   BOOST_TEST(expected.norm() > 1e-2);
   BOOST_TEST((torque - expected).norm() < 2e-4 * expected.norm(), torque.transpose() << "; " << expected.transpose());
@@ -156,7 +155,7 @@ BOOST_AUTO_TEST_CASE(copies_far_apart_are_each_alone_in_as_many_iterations) {
   BOOST_TEST(found.iterations_electric <= alone.iterations_electric + 2);
   const VesicleFields& expected = alone.fields.vesicles[0];
   for (const VesicleFields& f : found.fields.vesicles) {
-    // Rounding of positions, 1e-11, in the bending force.
+    // The bending force amplifies the rounding of positions, 1e-11.
     BOOST_TEST(relative_difference(f.velocity, expected.velocity) < 1e-6);
     BOOST_TEST(relative_difference(f.force_electric, expected.force_electric) < 1e-7);
     BOOST_TEST(relative_difference(f.tension, expected.tension) < 1e-6);

@@ -15,7 +15,7 @@ namespace {
 
 SmallestGap gap_of(double relative) { return {2.0 * relative, relative, 2.0, 1, 3, {0.0, 0.0, 1.0}}; }
 
-/// Why a step from one gap over the radius to another is refused; empty if it is not.
+/// Reason why a step from one gap over the radius to another is refused; empty if it is not.
 std::string reason(double before, double after) {
   Frame frame;
   frame.origin = Vector3(1.0, 0.0, 0.0);
@@ -32,7 +32,7 @@ std::string reason(double before, double after) {
 BOOST_AUTO_TEST_CASE(steps_that_jump_or_touch_are_refused) {
   BOOST_TEST(reason(0.3, 0.16).empty());
   BOOST_TEST(reason(0.1, 0.3).empty());
-  // Wide gaps close as fast as they like down to the spacing of the grid.
+  // Wide gaps may close at any speed down to the spacing of the grid.
   BOOST_TEST(reason(2.0, 0.25).empty());
   BOOST_TEST(reason(0.3, 0.14) ==
              "vesicles \"b\" and \"d\" come within 0.14 radii of each other at (1, 0, 1) in one step, from 0.3");
@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(steps_that_jump_or_touch_are_refused) {
           .starts_with(
               "vesicles \"b\" and \"d\" come within 0.00095 radii of each other at (1, 0, 1); accepted: 0.001, "));
   BOOST_TEST(reason(0.3, -0.1).find(" within 0 radii of ") != std::string::npos);
-  // Where a run starts there is nothing to jump from.
+  // At the start of a run there is no previous gap.
   BOOST_TEST(reason(std::numeric_limits<double>::infinity(), 0.01).empty());
 }
 

@@ -26,7 +26,7 @@ Surface leaning_ellipsoid() {
 }
 
 /// x = ρ(ω) ω about a centre, and its moments by quadrature over the sphere of directions ω: ∫dV = ∫ρ³/3 dω,
-/// ∫x dV = ∫ρ⁴/4 ω dω, ∫xxᵀ dV = ∫ρ⁵/5 ωωᵀ dω. Exact for the degrees here, and no surface integral among them.
+/// ∫x dV = ∫ρ⁴/4 ω dω, ∫xxᵀ dV = ∫ρ⁵/5 ωωᵀ dω. Exact for the degrees here, without surface integrals.
 struct LopsidedBody {
   Surface surface;
   double volume = 0.0;
@@ -58,7 +58,7 @@ struct LopsidedBody {
 
 }  // namespace
 
-// The centroid of an ellipsoid is that of its surface, whatever the flux is divided by; here the two are apart.
+// The centroid of an ellipsoid equals that of its surface, whatever the flux is divided by; here the two differ.
 BOOST_AUTO_TEST_CASE(a_body_without_symmetry_has_the_centroid_and_spread_of_its_volume) {
   const LopsidedBody body;
   const VolumeMoments moments = volume_moments(body.surface);
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(an_ellipsoid_has_its_centre_and_its_axes) {
   BOOST_TEST(std::abs(moments.aspect_ratio_along(-3.0 * kTurn.col(2)) - std::sqrt(along / across)) < 1e-10);
 }
 
-// A motion x ↦ v + Ax carries the centroid along, whether it keeps area and volume or not.
+// A motion x ↦ v + Ax moves the centroid accordingly, whether it keeps area and volume or not.
 BOOST_AUTO_TEST_CASE(the_centroid_moves_as_the_body_does) {
   Matrix3 gradient;
   gradient << 0.3, -1.0, 0.2, 0.5, 0.1, 0.7, -0.4, 0.6, 0.9;
@@ -110,8 +110,8 @@ BOOST_AUTO_TEST_CASE(the_centroid_moves_as_the_body_does) {
   }
 }
 
-// Points of an ellipsoid that run on ellipses about one of its axes, v = ω (−(a/b) y, (b/a) x, 0) along its own axes,
-// leave the shape at rest and come round ω/2π times; a rotation of the body adds to it.
+// Points of an ellipsoid that move on ellipses about one of its axes, v = ω (−(a/b) y, (b/a) x, 0) along its own axes,
+// leave the shape at rest and return ω/2π times per unit time; a rotation of the body adds to it.
 BOOST_AUTO_TEST_CASE(an_ellipsoid_tumbles_and_its_membrane_treads) {
   const Surface s = leaning_ellipsoid();
   const VolumeMoments moments = volume_moments(s);

@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(the_fastest_wrinkle_is_the_maximum_of_the_growth_rate) {
   BOOST_TEST(wrinkle_degree({}, -1.0, radius) == std::numeric_limits<double>::infinity());
 }
 
-// A field that flattens a prolate compresses it along its axis, the more the stronger it is.
+// A field that flattens a prolate compresses it along its axis; a stronger field compresses it more.
 BOOST_AUTO_TEST_CASE(a_compressed_membrane_says_so) {
   const Discretisation discretisation = discretisation_of(8);
   const auto degree_in = [&](double field) {
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(a_compressed_membrane_says_so) {
                  .diagnostics.wrinkle_degree == 0.0);
 }
 
-// At rest two disturbances share the excess area: the lower degree grows on what the higher one gives back.
+// At rest two disturbances share the excess area: the lower degree grows with the area that the higher one releases.
 BOOST_AUTO_TEST_CASE(a_disturbance_of_a_compressed_sphere_grows_at_its_rate) {
   constexpr int kOrder = 10;
   constexpr double kRadius = 1.7, kSize = 1e-3;
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(a_disturbance_of_a_compressed_sphere_grows_at_its_rate) {
     BOOST_TEST(expected > 0.0);
     BOOST_TEST(found.diagnostics.wrinkling_rate == expected, boost::test_tools::tolerance(1e-5));
     BOOST_TEST(rate == expected, boost::test_tools::tolerance(0.01));
-    // Under a tension that is above that of both nothing grows.
+    // Under a tension above that of both disturbances nothing grows.
     BOOST_TEST(wrinkling_rate(flow, 0.0, kRadius, kOrder) == 0.0);
   }
 }
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(wrinkles_much_finer_than_the_radius_grow_as_on_a_plane) {
   const double k = std::round(wrinkle_degree(parameters, tension, radius)) / radius;
   const double plane = (-tension * k - 0.5 * modulus * k * k * k) / (2.0 * 0.7 * (1.0 + 2.5));
   BOOST_TEST(wrinkling_rate(parameters, tension, radius, 4000) == plane, boost::test_tools::tolerance(1e-3));
-  // Of finer ones a degree knows nothing.
+  // Degrees up to 32 do not resolve the fastest-growing wrinkles.
   BOOST_TEST(wrinkling_rate(parameters, tension, radius, 32) < 0.3 * plane);
 }
 

@@ -12,7 +12,7 @@ using namespace vehd::testing;
 BOOST_AUTO_TEST_SUITE(constrained_motion_passes)
 
 BOOST_AUTO_TEST_CASE(passes_gain_down_to_rounding) {
-  // The strain is at rounding long before Eq. (28) is, and comes anew with every pass.
+  // The strain reaches rounding long before Eq. (28) does, and every pass produces it again.
   Model model = relaxation_model(0.1);
   model.flow = axisymmetric_extension(1.0);
   for (const int order : {8, 12}) {

@@ -28,7 +28,7 @@ Model stiff_model() {
   return model;
 }
 
-/// The system of a step of one membrane.
+/// System of a step of one membrane.
 class StepSystem {
  public:
   StepSystem(const Model& model, const Membrane& membrane, double dt = kDt, RecycledSubspace recycled = {})
@@ -39,12 +39,12 @@ class StepSystem {
   FlowSystem::Solution solve(const FlowScalars& right_side, double tolerance) {
     return system_.solve({system_.equations().front().rows(right_side)}, tolerance);
   }
-  /// Velocity that unknowns make.
+  /// Velocity for the given unknowns.
   Matrix velocity(const FlowScalars& unknowns) {
     const FlowEquations& one = system_.equations().front();
     return flow_.velocities({one.membrane().weighted(one.force(unknowns))}).front();
   }
-  /// The left side of the coupled system, from its parts.
+  /// Left side of the coupled system, computed from its parts.
   FlowScalars left_side(const FlowScalars& unknowns, double dt = kDt) {
     const Membrane& membrane = alone_.front().membrane;
     const SphereDerivatives u = membrane.fine.synthesize_derivatives(velocity(unknowns));
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(iterations_are_bounded_at_every_viscosity_ratio) {
 }
 
 BOOST_AUTO_TEST_CASE(a_rough_solve_takes_few_iterations_at_every_degree_and_stiffness) {
-  // The passes of a step ask for two digits each.
+  // Each pass of a step is solved to two digits.
   constexpr double kPassTolerance = 1e-2;
   for (const int order : {8, 16}) {
     const Space space(order);

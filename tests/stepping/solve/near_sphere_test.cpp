@@ -11,7 +11,7 @@ using namespace vehd::testing;
 
 namespace {
 
-/// A prolate all but a sphere, inclined in the plane of the shear.
+/// A nearly spherical prolate, inclined in the plane of the shear.
 Matrix inclined_prolate(double long_axis) {
   const Matrix3 rotation = Eigen::AngleAxisd(0.87, Vector3::UnitY()).toRotationMatrix();
   return ellipsoid(10, {1.0, 1.0, long_axis}) * rotation.transpose();
@@ -40,11 +40,11 @@ BOOST_AUTO_TEST_CASE(first_order_steps_do_not_ring_however_near_the_sphere) {
   }
 }
 
-// Positions of degree p have normal parts of degree p + 1, which no force of degree p answers. Where a step does not
-// know them their tension is explicit, and the last degree grows by ten and more a step, at every order.
+// Positions of degree p have normal parts of degree p + 1, which no force of degree p can balance. If a step ignores
+// them, their tension is explicit, and the last degree grows by a factor of ten and more per step, at every order.
 BOOST_AUTO_TEST_CASE(a_taut_membrane_keeps_still_at_any_step_and_order) {
   constexpr int kDegree = 12;
-  // Without a mirror in z, so that degree 13 is not silent.
+  // Without a mirror in z, so that degree 13 does not vanish.
   const SphereTransform transform(kDegree, make_grid(2 * kDegree));
   Vector rho = std::sqrt(4.0 * std::numbers::pi) * harmonic(kDegree, 0, 0);
   rho[coefficient_index(2, 0)] = -0.1;
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(a_taut_membrane_keeps_still_at_any_step_and_order) {
   }
 }
 
-// What is held changes steps by their own order: halving dt halves the error.
+// Holding the tension changes a step only by the order of its own error: halving dt halves the error.
 BOOST_AUTO_TEST_CASE(held_tension_leaves_the_first_order_step_of_first_order) {
   const Discretisation discretisation = discretisation_of(10);
   const Model model = shear_model();

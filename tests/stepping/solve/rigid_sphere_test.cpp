@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(sphere_stays_a_sphere_in_flow_and_field) {
   }
 }
 
-// V' = −G_m V + κ (3E/2 − V) with V(0) = 0 on the unit sphere: backward Euler, so of first order in dt.
+// V' = −G_m V + κ (3E/2 − V) with V(0) = 0 on the unit sphere: backward Euler is of first order in dt.
 BOOST_AUTO_TEST_CASE(sphere_charges_at_first_order_towards_the_exact_law) {
   const Discretisation discretisation = discretisation_of(kOrder);
   const Model model = field_model();
@@ -72,7 +72,7 @@ Discretisation discretisation_of_order(int time_order) {
   return Discretisation(settings);
 }
 
-/// Where the centre of a sphere has come from kCentre after ten steps to t = 1.
+/// Displacement from kCentre of the centre of a sphere after ten steps to t = 1.
 Vector3 travel(const Model& model, int time_order) {
   const Discretisation discretisation = discretisation_of_order(time_order);
   const double dt = 0.1;
@@ -108,8 +108,8 @@ BOOST_AUTO_TEST_CASE(sphere_off_the_axis_of_a_tube_lags_as_faxen_says_at_every_o
   }
 }
 
-// A shear turns a sphere with the vorticity, and a field charges it along an axis that stays: V_m at material points is
-// exact only where the points have rotated as far as the time says.
+// A shear turns a sphere with the vorticity, and a field charges it along a fixed axis: V_m at material points is
+// accurate only if the points have rotated by the right angle.
 BOOST_AUTO_TEST_CASE(sphere_that_turns_in_a_field_keeps_the_order_of_its_steps) {
   Model model = field_model();
   model.flow = shear_flow(1.0);

@@ -38,7 +38,7 @@ Model pulled(double lower, double upper, double viscosity, double ratio) {
   return model;
 }
 
-/// @param most  over the largest velocity
+/// @param most  bound relative to the largest velocity
 void keeps_every_area_element(const SolvedFields& found, double most) {
   for (std::size_t a = 0; a < found.vesicles.size(); ++a) {
     const Membrane& membrane = *found.vesicles[a].membrane;
@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(drag_of_stimson_and_jeffery_is_the_tabulated_one) {
   }
 }
 
-// Rigid spheres do not notice what is within them.
+// Spheres are rigid, so the viscosity inside does not matter.
 BOOST_AUTO_TEST_CASE(spheres_along_their_line_of_centres_move_as_stimson_and_jeffery_say) {
   struct Row {
     double gap;
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(spheres_along_their_line_of_centres_move_as_stimson_and_jef
   }
 }
 
-// U/U₀ = 1 ± (3/2d − 1/d³) up to the fourth power of 1/d.
+// U/U₀ = 1 ± (3/2d − 1/d³) up to terms of fourth order in 1/d.
 BOOST_AUTO_TEST_CASE(distant_spheres_move_as_far_limits_say) {
   constexpr double d = 60.0;
   const std::vector<Matrix> spheres = two_spheres(8, d - 2.0);
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(tensions_of_two_shapes_keep_every_area_element_of_both) {
   }
 }
 
-// Many have other preconditioners; a sphere among them has none of its own.
+// Many vesicles use other preconditioners; a sphere among them has none of its own.
 BOOST_AUTO_TEST_CASE(tensions_of_many_keep_every_area_element_of_all) {
   std::vector<Matrix> shapes;
   for (int i = 0; i < 10; ++i) {

@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(surface_keeps_area_volume_and_energy_to_truncation) {
 }
 
 BOOST_AUTO_TEST_CASE(new_nodes_lie_on_the_old_surface) {
-  // The implicit equation of the ellipsoid tells the distance of every node, to first order.
+  // The implicit equation of the ellipsoid gives the distance of every node, to first order.
   const Vector3 axes(1.0, 1.2, 2.0);
   const Tables tables(24);
   const Matrix position = ellipsoid(24, axes);
@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(new_nodes_lie_on_the_old_surface) {
 }
 
 BOOST_AUTO_TEST_CASE(fields_ride_on_their_material_points) {
-  // A function of the place in space is the same function of the new nodes.
+  // A function of the position in space is the same function of the new nodes.
   const int order = 24;
   const Tables tables(order);
   const Matrix position = asymmetric_shape(order);
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(fields_ride_on_their_material_points) {
 }
 
 BOOST_AUTO_TEST_CASE(sliding_of_the_last_step_is_undone) {
-  // A sphere that rotated about its centre: its nodes go back to where they were, to the second order of the turn.
+  // A sphere that rotated about its centre: its nodes return to their positions, to second order in the angle.
   const int order = 12;
   const Tables tables(order);
   const Matrix position = sphere(order);

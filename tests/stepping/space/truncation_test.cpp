@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(no_state_leaves_out_more_than_its_share_below_the_highest_d
 }
 
 BOOST_AUTO_TEST_CASE(degree_is_enough_only_where_the_cut_state_says_so_too) {
-  // Seeded spectra with plateaus and gaps: what remains after the cut must tell of no more than the target.
+  // Seeded spectra with plateaus and gaps: the remainder of the truncated state must not exceed the target.
   std::mt19937 random(15);
   constexpr int kOrder = 24;
   Model model;

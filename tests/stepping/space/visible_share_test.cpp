@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_SUITE(visible_shares)
 BOOST_AUTO_TEST_CASE(points_that_slide_are_not_seen) {
   for (const double by : {1e-3, 1e-4}) {
     const VisibleShare share = visible_share(share_grid(), slid(by));
-    // To second order in the sliding there is nothing.
+    // The visible part is of second order in the sliding.
     BOOST_TEST(share.shape < 20.0 * by);
     BOOST_TEST(share.potential < 20.0 * by);
   }

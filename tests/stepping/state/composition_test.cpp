@@ -25,7 +25,7 @@ std::uint64_t count(const Counts& counts, const std::string& name) {
   return found == counts.end() ? 0 : found->second;
 }
 
-/// Kernel evaluations of n steps that end on the discontinuities of the forcing, and the state in the end.
+/// Kernel evaluations of n steps that end on the discontinuities of the forcing, and the final state.
 struct CountedRun {
   State state;
   std::vector<Counts> after_step;
@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(sphere_sinks_with_the_speed_of_a_drop_or_of_a_rigid_sphere)
     const SphereTransform& fine = discretisation.vesicle(0).fine_transform();
     const Matrix velocity = fine.synthesize(evaluated(model, discretisation, state).fields.velocity);
     const Surface s = make_surface(fine, state.vesicles[0].position);
-    // The surface of a drop also flows within itself; its normal velocity is U·n.
+    // The surface of a drop also flows tangentially; its normal velocity is U·n.
     const Vector normal_velocity = velocity.cwiseProduct(s.normal).rowwise().sum();
     return 3.0 * normal_velocity.cwiseProduct(s.normal.col(2)).dot(s.quadrature) / s.quadrature.sum();
   };

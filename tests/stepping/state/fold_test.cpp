@@ -32,7 +32,7 @@ NumericalSettings settings_for(const Symmetry& symmetry) {
   return settings;
 }
 
-/// Largest difference per step of the states that n steps with and without use of the symmetry end in.
+/// Largest difference per step between the final states of n steps with and without use of the symmetry.
 double difference_per_step(const Model& model, const Matrix& position, double dt, int n_steps) {
   const Symmetry symmetry = found(model, position);
   const Discretisation reduced(settings_for(symmetry), symmetry);
@@ -47,7 +47,7 @@ std::uint64_t evaluations(const Model& model, const Matrix& position, const Symm
   return instruments.kernel_evaluations().at("stokes_single");
 }
 
-/// Kernel evaluations with the symmetry over those without, on the same grid.
+/// Ratio of kernel evaluations with the symmetry to those without, on the same grid.
 double reduction(const Model& model, const Matrix& position) {
   const Symmetry symmetry = found(model, position);
   return double(evaluations(model, position, symmetry, symmetry)) / double(evaluations(model, position, {}, symmetry));
@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(largest_number_of_turns_is_found) {
   BOOST_TEST(symmetry_text(found(relaxation_model(0.1), star(6, 1.0))) == "6-fold about z");
   BOOST_TEST(symmetry_text(found(field_model(), star(3, 0.0))) ==
              "3-fold about z, mirror y, mirror z, half turn about x");
-  // An axisymmetric shape that swirls.
+  // An axisymmetric shape in a swirling flow.
   Model swirling = relaxation_model(0.1);
   swirling.flow = BackgroundFlow{};
   swirling.flow->gradient(0, 1) = -0.3;
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(largest_number_of_turns_is_found) {
   BOOST_TEST(swirl.fold == 2 * kOrder + 2);
 }
 
-// A body with turns about another axis is computed in a frame that has its poles there.
+// A body with turns about another axis is computed in a frame that has its poles on that axis.
 BOOST_AUTO_TEST_CASE(turns_about_any_axis_are_found_and_change_no_step) {
   for (const Vector3& axis : {Vector3(1.0, 0.0, 0.0), Vector3(0.3, -0.5, 0.8)}) {
     Frame body = frame_along(axis);
@@ -84,13 +84,13 @@ BOOST_AUTO_TEST_CASE(turns_about_any_axis_are_found_and_change_no_step) {
     const Matrix position = in_frame(frame, laboratory).vesicles[0].position;
     BOOST_TEST(symmetry_text(found(there, position), frame).starts_with("3-fold about "));
     BOOST_TEST(difference_per_step(there, position, 0.1, 3) < 1e-9);
-    // The laboratory's own grid has its poles elsewhere and is as good as this order resolves.
+    // The grid of the laboratory has its poles elsewhere and is only as accurate as this order.
     const Discretisation full(settings_for({}));
     const State a = run(there, full, start(there, full, position, 0.1), 0.1, 3);
     const State b = run(model, full, start(model, full, laboratory.vesicles[0].position, 0.1), 0.1, 3);
     BOOST_TEST(max_difference(in_laboratory(frame, a).vesicles[0].position, b.vesicles[0].position) < 1e-5);
   }
-  // Too few turns to leave the axes of the laboratory for.
+  // Too few turns to justify leaving the axes of the laboratory.
   const State prism =
       in_laboratory(frame_along({1.0, 0.0, 0.0}), start(field_model(), discretisation_of(kOrder), star(2, 1.0), 0.1));
   BOOST_TEST(find_frame(relaxation_model(0.1), prism).is_laboratory());
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(reduced_solver_makes_the_same_steps) {
   BOOST_TEST(difference_per_step(swirling, prolate(kOrder), 0.1, 3) < 1e-9);
 }
 
-// 30 longitudes serve 3 and 5 turns. A mirror leaves the six azimuths 0, 1, ..., 5 of 3 turns, 0, ..., 3 of 5 turns;
+// 30 longitudes suit 3 and 5 turns. A mirror leaves the six azimuths 0, 1, ..., 5 of 3 turns, 0, ..., 3 of 5 turns;
 // mirror z leaves 7 of 13 latitudes.
 BOOST_AUTO_TEST_CASE(only_independent_targets_are_evaluated) {
   const auto close = boost::test_tools::tolerance(1e-12);

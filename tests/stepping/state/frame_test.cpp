@@ -19,7 +19,7 @@ constexpr int kOrder = 12;
 
 Discretisation with(const Symmetry& symmetry) { return Discretisation(solved_to_rounding(kOrder), symmetry); }
 
-/// A model and a shape in the lab frame, and how they look in the frame that is found for them.
+/// A model and a shape in the lab frame and in the frame that is found for them.
 struct Scenario {
   Model model;
   State state;
@@ -35,14 +35,14 @@ struct Scenario {
     symmetry = find_symmetry(model_there, state_there);
   }
 
-  /// Largest difference per step of the states that n steps with and without use of the symmetry end in.
+  /// Largest difference per step between the final states of n steps with and without use of the symmetry.
   [[nodiscard]] double difference_per_step(double dt, int n_steps) const {
     const Discretisation reduced = with(symmetry);
     const Discretisation full = with({});
     return testing::difference_per_step(model_there, state_there.vesicles[0].position, reduced, full, dt, n_steps);
   }
 
-  /// The same between the frame and the lab frame, where the grid has its poles elsewhere.
+  /// Difference per step between the frame and the lab frame, whose grid has its poles elsewhere.
   [[nodiscard]] double difference_from_lab_frame(double dt, int n_steps) const {
     const Discretisation reduced = with(symmetry);
     const State a =
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(axis_is_found_in_the_field_the_flow_gravity_or_the_shape) {
   model = relaxation_model(0.1);
   model.flow = BackgroundFlow{oblique() * axisymmetric_extension(1.0).gradient * oblique().transpose()};
   BOOST_TEST(Scenario(model, sphere(kOrder)).symmetry.axisymmetric);
-  // Nothing but the shape has a direction.
+  // Only the shape has a direction.
   BOOST_TEST(Scenario(relaxation_model(0.1), rotated_shape(oblique(), pear(kOrder))).symmetry.axisymmetric);
 }
 
@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(axis_may_miss_the_origin_where_nothing_depends_on_the_place
   const Scenario tilted(in_field(oblique().col(2)), translated(rotated_shape(oblique(), pear(kOrder)), centre));
   BOOST_TEST(tilted.symmetry.axisymmetric);
   BOOST_TEST(tilted.difference_per_step(0.2, 3) < 1e-9);
-  // What the lab frame shows is where it was.
+  // Output in the lab frame is at the original position.
   const LabFrameOutput lab_frame(upright.frame, with({}).settings());
   BOOST_TEST(max_difference(lab_frame.state(upright.state_there).vesicles[0].position,
                             upright.state.vesicles[0].position) < 1e-15);
@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(reduced_solver_makes_the_same_steps_about_any_axis) {
   BOOST_TEST(extension.difference_per_step(0.2, 4) < 1e-9);
 }
 
-// The truncation of degree p knows no poles, but its quadratures do: they agree as well as each is resolved.
+// Truncation at degree p does not depend on the poles, but quadratures do: they agree as well as each is resolved.
 BOOST_AUTO_TEST_CASE(frame_and_lab_frame_agree_to_the_accuracy_of_the_order) {
   const Scenario lying(in_field({1.0, 0.0, 0.0}), ellipsoid(kOrder, {1.4, 1.0, 1.0}));
   BOOST_TEST(lying.difference_from_lab_frame(0.2, 3) < 1e-8);

@@ -15,7 +15,7 @@ namespace {
 
 struct Steps {
   State end;
-  std::vector<int> iterations;  ///< of the velocity and of the tension at its end, of every step
+  std::vector<int> iterations;  ///< of the velocity and of the tension at its end, for every step
 
   [[nodiscard]] int median_from(int first) const {
     std::vector<int> sorted(iterations.begin() + first, iterations.end());
@@ -75,8 +75,8 @@ BOOST_AUTO_TEST_CASE(what_was_learned_changes_the_step_by_less_than_its_toleranc
 }
 
 BOOST_AUTO_TEST_CASE(a_step_that_is_known_takes_fewer_iterations) {
-  // What a step learns from others depends on rounding, since directions of theirs that are nearly one another's are
-  // left out; from itself it learns on any processor.
+  // Recycling from other steps depends on rounding, since nearly parallel directions are left out; recycling from the
+  // same step works on any processor.
   const Model model = shear_model();
   const Matrix position = ellipsoid(10, {2.0, 1.0, 0.9});
   const Discretisation discretisation = symmetric_discretisation(model, position);
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(what_is_known_is_had_in_its_own_coefficients_alone) {
   BOOST_TEST((known.in(all, 2).responses == 3.0 * both));
   BOOST_TEST(known.in(all, 1).count() == 0);
   BOOST_TEST(known.in(scalar_entries({}, kOrder - 1), 2).count() == 0);
-  // As many rows as two scalars of another symmetry or degree have, by chance.
+  // Another symmetry or degree may have as many rows as two of these scalars, by chance.
   std::vector<Index> others = all;
   others.back() += 1;
   BOOST_TEST(known.in(others, 2).count() == 0);
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(resized_state_knows_nothing_in_the_coefficients_of_the_form
   BOOST_TEST((resized(learned, 6).vesicles[0].recycled.flow == learned.vesicles[0].recycled.flow));
 }
 
-// Up, down, and to what a smaller symmetry leaves; even where somebody forgets to forget.
+// Higher and lower degrees and a smaller symmetry, also if the outdated subspace is left in the state.
 BOOST_AUTO_TEST_CASE(what_was_learned_at_another_degree_changes_no_field_and_no_step) {
   const Model model = shear_model();
   const Matrix position = ellipsoid(10, {2.0, 1.0, 0.9});
@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(what_was_learned_at_another_degree_changes_no_field_and_no_
         BOOST_TEST(max_difference(step.state.vesicles[0].position, unaided.state.vesicles[0].position) < 1e-7);
         const Index rows = step.state.vesicles[0].recycled.flow->subspace().arguments.rows();
         BOOST_TEST(rows == 2 * static_cast<Index>(step.state.vesicles[0].recycled.flow->entries().size()));
-        // A step knows changes of H to one degree more.
+        // The changes of H in a step have one degree more.
         BOOST_TEST(
             (step.state.vesicles[0].recycled.flow->entries() == scalar_entries(discretisation.symmetry(), order + 1)));
       }

@@ -101,8 +101,8 @@ BOOST_AUTO_TEST_CASE(reduced_solver_makes_the_same_steps) {
   BOOST_TEST(difference_with_symmetry(field_model(), ellipsoid(kOrder, {0.8, 1.2, 1.5}), 0.1, 4) < 1e-9);
 }
 
-// Full: 2p + 2 longitudes of p + 1 latitudes. Axisymmetric with mirror z: one longitude of half the latitudes, which
-// lies in a mirror, so that half of the nodes about each target are enough.
+// Without symmetry: 2p + 2 longitudes of p + 1 latitudes. Axisymmetric with mirror z: one longitude of half the
+// latitudes, which lies in a mirror, so that half of the nodes about each target suffice.
 BOOST_AUTO_TEST_CASE(only_independent_targets_are_evaluated) {
   const Symmetry axis = find_symmetry(field_model(), state_of(field_model(), prolate(kOrder)));
   const double full = double(stokes_evaluations(field_model(), prolate(kOrder), {}));

@@ -18,7 +18,7 @@ BOOST_AUTO_TEST_CASE(geometric_changes_leave_the_rest_of_their_series) {
     for (std::size_t k = j; k < 60; ++k) rest += std::pow(kRatio, static_cast<double>(k));
     BOOST_TEST(changes.error_after(j) == rest, boost::test_tools::tolerance(1e-12));
   }
-  // Of a former one the next change is the error.
+  // The error of an earlier iterate is the next change.
   BOOST_TEST(changes.error_after(1) == kRatio);
 }
 

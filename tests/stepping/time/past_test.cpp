@@ -16,14 +16,14 @@ namespace {
 
 constexpr int kDegreeOfPast = 16;
 
-/// Sheared, in a field across.
+/// A vesicle in shear and in a field across it.
 Model driven_model() {
   Model model = field_model();
   model.flow = shear_flow(1.0);
   return model;
 }
 
-/// One step of a size with which sweeps converge.
+/// One step of a size at which sweeps converge.
 class ConvergedStep {
  public:
   ConvergedStep(const Model& model, const Discretisation& discretisation, const State& state, double dt)
@@ -38,13 +38,13 @@ class ConvergedStep {
     }
   }
 
-  /// At its end, with what it leaves to the next step.
+  /// State at the end of the step, with the history for the next step.
   [[nodiscard]] State end() const {
     State state = physics_.end_state(y_.node(y_.last()));
     store_past(physics_.start(), y_.nodes(), state);
     return state;
   }
-  /// Largest error of what the past of the start tells of the nodes: of x over the radius and V_m over its size.
+  /// Largest error of the nodes extrapolated from the history of the start: of x over the radius and V_m over its size.
   [[nodiscard]] double error_of_past() const {
     double largest = 0.0;
     for (const NodeSolution& node : y_.nodes()) {
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(past_goes_on_with_one_order_more_than_it_has_times) {
   settings.time_order = highest_time_order;
   const Discretisation discretisation(settings);
   std::vector<double> errors;
-  // What relaxes within a step is over by then, and smooth motions are left.
+  // By then, transients that decay within a step are over, and only smooth motions remain.
   const State begun = run(model, discretisation, start(model, discretisation, position, 0.05), 0.05, 8);
   for (const double dt : {0.16, 0.08, 0.04}) {
     const State state = ConvergedStep(model, discretisation, begun, dt).end();
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(rigid_spheres_have_no_past) {
 
 namespace {
 
-/// A past of x and one scalar of which each coefficient is this function of the time, times its own amplitude.
+/// History of x and one scalar, each coefficient being this function of time, times its own amplitude.
 template <typename Motion>
 Matrix past_of(const Vector& times, const Motion& motion) {
   const Matrix amplitude = smooth_coefficients(kDegreeOfPast, 4, kDegreeOfPast, 17);
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(noise_of_a_degree_is_continued_by_a_straight_line_and_other
   Matrix noisy = past;
   constexpr int kDegree = 5;
   const auto of_degree = Eigen::seqN(coefficient_index(kDegree, -kDegree), 2 * kDegree + 1);
-  // Of the scalar alone, with signs that no polynomial follows.
+  // Noise only in the scalar, with signs that no polynomial follows.
   noisy(of_degree, 3).setConstant(1.0);
   noisy(of_degree, 7).setConstant(-1.0);
   noisy(of_degree, 11).setConstant(1.0);

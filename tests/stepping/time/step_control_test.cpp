@@ -47,8 +47,8 @@ BOOST_AUTO_TEST_CASE(accepted_step_holds_area_and_volume_to_the_tolerance) {
   }
 }
 
-// A strain that is known is undone by the next step; one that degrees that are cut off must have left stays, and the
-// shape and its tension do not feel it.
+// A strain up to known_strain is undone by the next step; a larger one, attributed to truncated degrees, stays and does
+// not affect the shape and its tension.
 BOOST_AUTO_TEST_CASE(strain_is_taken_back_as_far_as_it_is_known) {
   const Discretisation discretisation = discretisation_of(12);
   const Model model = relaxation_model(0.1);
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(size_of_fixed_steps_doubles_back_to_the_nominal_one) {
   BOOST_TEST(accepted.state.dt_next == 0.04);
   set_next_size(control, start, {.dt_next = 0.05, .dt = 0.05}, accepted);
   BOOST_TEST(accepted.state.dt_next == 0.08);
-  // One that an event cuts short does not shorten those that follow.
+  // A step that an event cuts short does not shorten those that follow.
   accepted.dt = 0.003;
   set_next_size(control, start, {.dt_next = 0.08, .dt = 0.003}, accepted);
   BOOST_TEST(accepted.state.dt_next == 0.08);
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(sizes_that_fall_go_on_falling) {
   BOOST_TEST(next(0.02, 0.5) == 0.005, rounding);
   BOOST_TEST(next(0.005, 0.5) == 0.01, rounding);
   BOOST_TEST(next(0.02, 4.0) == 0.08, rounding);
-  // Cut short by an event, and found to be too short.
+  // The step was cut short by an event, and its size was found to be too small.
   BOOST_TEST(next(0.02, 1.2) == 0.03, rounding);
   BOOST_TEST(next(0.0, 100.0) == 1.0, rounding);
 }
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(way_ends_with_the_reason_where_no_step_is_good) {
   const Matrix position = example_3_shape(8);
   const EvolutionSetup setup = in_shear(position, 0.1);
   State state = start(setup.model, Discretisation(setup.settings, setup.symmetry), position, 0.1);
-  // No motion at this area reaches twice the volume.
+  // No motion can double the volume at this area.
   state.vesicles[0].reference_volume *= 2.0;
   Instruments instruments;
   Evolution evolution(setup, state, instruments);
@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(initial_state_starts_where_it_is_told) {
   // Steady V = (3E/2) κ/(κ + G_m) with κ = 2σ_iσ_e/(σ_i + 2σ_e) = 4/5.
   const State steady = initial_state(model, discretisation, {{sphere(8), {.steady = true}}}, 0.1, instruments);
   BOOST_TEST(max_difference(steady.vesicles[0].transmembrane_potential, 1.5 * 0.8 / 5.8 * sphere(8).col(2)) < 1e-9);
-  // One that is given is taken over in any degree.
+  // A given potential may have any degree.
   const Vector given = Vector::LinSpaced(n_coefficients(5), -1.0, 2.0);
   const State charged = initial_state(model, discretisation, {{sphere(8), {.given = given}}}, 0.1, instruments);
   BOOST_TEST((charged.vesicles[0].transmembrane_potential.head(given.size()) == given));

@@ -29,7 +29,7 @@ BOOST_AUTO_TEST_CASE(no_sliver_is_left) {
   const vehd::StepPlan plan = vehd::plan_step(0.0, 0.3, {{}, 1.0});
   BOOST_TEST(plan.dt == 0.25);
   BOOST_TEST(!plan.reaches_event);
-  // One rounding error more than dt is still one step.
+  // An interval longer than dt by one rounding error is still one step.
   BOOST_TEST(vehd::plan_step(0.0, 0.1, {{}, 0.1 * (1.0 + 1e-12)}).reaches_event);
 }
 
@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(end_that_rounds_onto_a_snapshot_is_one_event) {
 
 namespace {
 
-/// Where the snapshots of a run with these steps are; `most` is the longest step.
+/// Snapshot times of a run with these steps; `most` is the longest step.
 std::vector<double> snapshots_of(const vehd::EventTimes& events, double dt, double* most = nullptr) {
   std::vector<double> moments;
   double time = 0.0;
@@ -64,11 +64,11 @@ BOOST_AUTO_TEST_CASE(snapshots_come_at_several_rates) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     BOOST_TEST(found[i] == expected[i], boost::test_tools::tolerance(1e-14));
   }
-  // Each counts once: the start is none of them, and the end is one of several that ask for it.
+  // Each time counts once: the start does not count, and a time in several schedules counts once.
   BOOST_TEST(events.snapshots.count(4.0) == 4.0 + 2.0 + 3.0 + 4.0, boost::test_tools::tolerance(1e-12));
 }
 
-// Moments that several ask for differ by rounding: a sliver between them would be a step of its own.
+// Times that several schedules contain differ by rounding: a sliver between them would be a step of its own.
 BOOST_AUTO_TEST_CASE(moments_that_several_ask_for_are_one) {
   std::vector<double> tenths;
   for (int k = 1; k < 50; ++k) tenths.push_back(k / 10.0);
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(steps_are_no_shorter_than_their_snapshots_need) {
   double longest = 0.0;
   snapshots_of(events, 0.5, &longest);
   BOOST_TEST(longest == 0.5);
-  // Before the window, in it and after it.
+  // Before, in and after the window.
   BOOST_TEST(vehd::plan_step(0.0, 0.5, events).dt == 0.5);
   BOOST_TEST(vehd::plan_step(1.0, 0.5, events).dt == 0.01, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(vehd::plan_step(1.1, 0.5, events).dt == 0.45, boost::test_tools::tolerance(1e-12));

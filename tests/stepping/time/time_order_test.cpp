@@ -22,7 +22,7 @@ Vector observed_at(const Model& model, const Matrix& position, int time_order, d
       {d.extent_x, d.extent_z, model.electric ? d.Vm_max : d.area, d.tension_integral, d.bending_energy_scaled}};
 }
 
-/// Errors of all that is observed, at n, 2n, 4n steps.
+/// Errors of all observed quantities, at n, 2n, 4n steps.
 class OrderStudy {
  public:
   OrderStudy(Model model, Matrix position, double end_time, int n_steps)
@@ -32,7 +32,7 @@ class OrderStudy {
         n_steps_(n_steps),
         reference_(observed_at(model_, position_, highest_time_order, end_time_, 2 * (n_steps << (kLevels - 1)))) {}
 
-  /// The largest relative error must fall with at least this mean rate.
+  /// Checks that the largest relative error falls with at least this mean rate.
   void reaches(int time_order, double least_rate) const {
     double first = 0.0, error = 0.0;
     for (int level = 0; level < kLevels; ++level) {

@@ -1,4 +1,4 @@
-// Loaded into the program with LD_PRELOAD: lets its file operations fail or kills it in the middle of one.
+// Loaded into the program with LD_PRELOAD: makes its file operations fail or kills it in the middle of one.
 //   VEHD_FAULT="kill N"      SIGKILL at the N-th operation; a write has written half of its bytes by then
 //   VEHD_FAULT="full N"      the disk has room for N more bytes
 //   VEHD_FAULT="readonly N"  the file system becomes read-only at the N-th operation
@@ -62,7 +62,7 @@ class Fault {
     return false;
   }
 
-  /// How many of the bytes may be written; -1: none, with errno set.
+  /// Number of bytes that may be written; -1: none, with errno set.
   ssize_t admits(size_t bytes) {
     ++operations_;
     bytes_ += static_cast<long long>(bytes);
@@ -81,7 +81,7 @@ class Fault {
     return static_cast<ssize_t>(room);
   }
 
-  /// After the bytes that were admitted have been written.
+  /// Called after the admitted bytes have been written.
   ssize_t written(ssize_t result) const {
     if (killed()) ::kill(::getpid(), SIGKILL);
     return result;
