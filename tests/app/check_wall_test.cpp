@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(wall_elsewhere_or_of_the_other_kind_is_noticed) {
                         "fields", "velocity")});
 }
 
-BOOST_AUTO_TEST_CASE(walls_that_the_elements_do_not_know_are_refused) {
+BOOST_AUTO_TEST_CASE(walls_that_the_elements_do_not_support_are_refused) {
   const TemporaryDirectory directory;
   const auto refused = [&](const std::string& scene, const std::string& message) {
     write_text(directory / "scene.toml", scene);

@@ -24,7 +24,7 @@ BOOST_AUTO_TEST_CASE(are_listed_with_what_they_show) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(are_written_where_asked) {
+BOOST_AUTO_TEST_CASE(are_written_to_the_given_directory) {
   const TemporaryDirectory directory;
   const std::string go = "cd '" + (directory / "") + "' && '" VEHD_PROGRAM "' examples ";
   BOOST_TEST(run_command({"sh", "-c", go + "figure2 relaxation"}).output == "figure2.toml\nrelaxation.toml\n");
@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(are_written_where_asked) {
   BOOST_TEST(fs::exists(directory / "a/b/figure2.toml"));
 }
 
-BOOST_AUTO_TEST_CASE(never_replace_what_somebody_has_changed) {
+BOOST_AUTO_TEST_CASE(never_replace_files_that_were_changed) {
   const TemporaryDirectory directory;
   const std::string file = directory / "figure3.toml";
   write_text(file, "mine");

@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(a_shape_without_a_finite_size_is_refused_with_its_line) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_step_that_the_end_cannot_tell_from_none_is_named) {
+BOOST_AUTO_TEST_CASE(a_step_lost_in_the_rounding_of_the_end_is_named) {
   const TemporaryDirectory directory;
   std::string scene = ExtremeScene().set("end_time", "1e300").text();
   scene.replace(scene.find("dt = 0.05"), 9, "tolerance = 1e-3");

@@ -74,7 +74,7 @@ BOOST_FIXTURE_TEST_CASE(no_word_of_a_picture_lies_over_another, PlottedRun) {
   }
 }
 
-BOOST_FIXTURE_TEST_CASE(files_are_of_the_kind_that_was_asked_for, PlottedRun) {
+BOOST_FIXTURE_TEST_CASE(files_are_of_the_requested_kind, PlottedRun) {
   BOOST_TEST(plot({"-o", directory / "one/shape.svg"}).exit_code == 0);
   const std::string svg = directory / "one/shape.svg";
   const ProgramResult parsed = run_command(

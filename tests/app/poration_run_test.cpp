@@ -17,7 +17,7 @@ const std::string first_crossing = "[poration]\nmodel = \"criterion\"\nthreshold
 
 BOOST_AUTO_TEST_SUITE(poration_run, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
-BOOST_AUTO_TEST_CASE(a_crossing_goes_on_bit_for_bit_and_is_told) {
+BOOST_AUTO_TEST_CASE(a_crossing_is_reported_and_resumes_bit_for_bit) {
   const RunPair pair(porating_sphere + first_crossing + porating_steps);
   pair.run_reference();
   // Stops after the crossing; the run below stops before it.

@@ -75,7 +75,7 @@ std::string scene_without_field() {
 
 BOOST_AUTO_TEST_SUITE(report, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
-BOOST_AUTO_TEST_CASE(page_needs_nothing_else_and_tells_of_the_run) {
+BOOST_AUTO_TEST_CASE(page_is_self_contained_and_describes_the_run) {
   const ReportedRun run(quick_scene());
   const std::string page = file_text(run.page);
   for (const char* outside : {"<link", "<script src", "<img src=\"http", "@import", "url("}) {

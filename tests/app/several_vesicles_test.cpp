@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(a_run_goes_on_bit_for_bit) {
   run.finish();
 }
 
-BOOST_AUTO_TEST_CASE(files_tell_of_every_vesicle) {
+BOOST_AUTO_TEST_CASE(files_describe_every_vesicle) {
   const FinishedRun run(quick_pair("0.2"));
   const vehd::HistoryTable all(run.output + "/history.csv"), each(run.output + "/vesicles.csv");
   BOOST_TEST(all.n_rows() == 3);
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(a_suspension_runs_as_what_was_placed) {
   BOOST_TEST(snapshots.snapshot(0).has_field("force_contact"));
 }
 
-BOOST_AUTO_TEST_CASE(what_knows_one_vesicle_alone_says_so) {
+BOOST_AUTO_TEST_CASE(commands_for_one_vesicle_say_so) {
   const FinishedRun run(quick_pair("0.0"));
   const std::string snapshots = run.output + "/run.h5";
   check_refused({"report", run.output}, "run.h5: holds 2 vesicles; vehd report accepts a run of one");

@@ -194,7 +194,7 @@ BOOST_FIXTURE_TEST_CASE(pictures_of_a_run_in_si_are_drawn, SiRun) {
   }
 }
 
-BOOST_FIXTURE_TEST_CASE(a_plan_tells_the_groups_and_the_times_in_si, SiRun) {
+BOOST_FIXTURE_TEST_CASE(a_plan_prints_groups_and_times_in_si, SiRun) {
   write_text(directory / "scene.toml", pulse());
   const ProgramResult result = run_vehd({"plan", directory / "scene.toml", "--json", directory / "plan.json"});
   BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);

@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(every_hard_case_holds_in_its_short_form) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_criterion_that_does_not_hold_is_told) {
+BOOST_AUTO_TEST_CASE(a_criterion_that_fails_is_reported) {
   const TemporaryDirectory directory;
   const std::string head = "#: family = \"f\"\n#: short_end_time = 1.0\n";
   const ProgramResult bound =

@@ -202,7 +202,7 @@ BOOST_FIXTURE_TEST_CASE(a_script_for_slurm_shares_the_runs_out, SweepWork) {
   BOOST_TEST(run({"--pack", "7"}).errors.starts_with("--pack 7: "));
 }
 
-BOOST_FIXTURE_TEST_CASE(a_script_for_slurm_has_what_the_cluster_wants, SweepWork) {
+BOOST_FIXTURE_TEST_CASE(a_slurm_script_has_the_options_of_the_cluster, SweepWork) {
   write_sweep(conductivities);
   write_text(directory / "modules.sh", "module load fftw");
   const std::vector<std::string> wanted = {

@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(order_of_the_run_gives_the_numbers_of_the_run) {
 }
 
 // The elements take G_m from the file, which holds all of it if the membrane's own conductance varies spatially.
-BOOST_AUTO_TEST_CASE(truncation_of_the_conductance_of_pores_is_known) {
+BOOST_AUTO_TEST_CASE(truncation_of_the_conductance_of_pores_is_estimated) {
   Frozen frozen(
       "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\n"
       "[membrane]\nmobile = false\ncapacitance = 0.5\nconductance = 0.3\n"
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(settings_of_the_run_count) {
 
 // Regression: such points ended the check. Beside parts of the membrane that are equally near, or at a degree too low
 // for the shape, the layers cannot be evaluated.
-BOOST_AUTO_TEST_CASE(points_without_a_value_are_told_by_it) {
+BOOST_AUTO_TEST_CASE(points_without_a_value_are_reported) {
   const std::string still = "[membrane]\nbending_modulus = 1.0\n[numerics]\ndt = 0.002\nend_time = 0.0\n";
   vehd::Index unknown = 0;
   for (const auto& [order, shape] :

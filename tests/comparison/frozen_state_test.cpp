@@ -183,7 +183,7 @@ BOOST_AUTO_TEST_CASE(shapes_that_enclose_nothing_are_named) {
              "x at time 0 is too large: its area or its volume is no finite number");
 }
 
-BOOST_AUTO_TEST_CASE(fields_that_the_elements_do_not_know_are_refused) {
+BOOST_AUTO_TEST_CASE(fields_that_the_elements_do_not_support_are_refused) {
   const TemporaryDirectory directory;
   const std::string alone =
       "[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1.2]\n[numerics]\ndegree = 4\ndt = 0.1\nend_time = 1\n"

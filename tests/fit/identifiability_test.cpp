@@ -46,7 +46,7 @@ const std::string relaxing =
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(relaxation_without_a_field_tells_bending_over_viscosity) {
+BOOST_AUTO_TEST_CASE(relaxation_without_a_field_determines_bending_over_viscosity) {
   const Design design;
   require_undetermined(design.fitted(relaxing, {.quantity = "aspect_ratio", .noise = "0.005"},
                                      "\"membrane.bending_modulus\" = {from = 0.1, to = 10}\n"
@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(relaxation_without_a_field_tells_bending_over_viscosity) {
                        vehd::Vector{{1.0, 1.0}});
 }
 
-BOOST_AUTO_TEST_CASE(relaxation_with_a_known_viscosity_tells_bending) {
+BOOST_AUTO_TEST_CASE(relaxation_with_a_known_viscosity_determines_bending) {
   const Design design;
   const vehd::FitResult result = design.fitted(relaxing, {.quantity = "aspect_ratio", .noise = "0.005", .seed = 2},
                                                "\"membrane.bending_modulus\" = {from = 0.1, to = 10}\n");
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(relaxation_with_a_known_viscosity_tells_bending) {
 }
 
 // The phase of V_m on a sphere is atan(ω a C_m (1/σ_i + 1/(2σ_e))).
-BOOST_AUTO_TEST_CASE(phases_over_frequency_tell_the_product_of_capacitance_and_radius) {
+BOOST_AUTO_TEST_CASE(phases_over_frequency_determine_the_product_of_capacitance_and_radius) {
   const Design design;
   const std::string scene =
       "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.0]\nscale = 1.0\n[membrane]\ncapacitance = 1.0\n"

@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(two_fits_do_not_work_in_one_directory) {
   BOOST_CHECK_THROW(charging.result(fit), vehd::DirectoryBusy);
 }
 
-BOOST_AUTO_TEST_CASE(what_charging_does_not_tell_apart_is_reported) {
+BOOST_AUTO_TEST_CASE(combinations_that_charging_does_not_determine_are_reported) {
   // The data determine a time and an amplitude, but the fit has three keys.
   const ChargingFit charging;
   const vehd::FitFile fit = charging.fit(

@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(what_was_learned_of_a_similar_operator_saves_iterations_and
   BOOST_TEST((matrix * solution.x - rhs).norm() <= 1.1e-8 * rhs.norm());
 }
 
-BOOST_AUTO_TEST_CASE(misleading_knowledge_costs_at_most_twice_the_iterations) {
+BOOST_AUTO_TEST_CASE(a_misleading_subspace_costs_at_most_twice_the_iterations) {
   const Matrix matrix = test_matrix(kSize);
   const Matrix arguments = Matrix::Identity(kSize, 20);
   // Images under a different operator, which reverses and mixes the arguments.

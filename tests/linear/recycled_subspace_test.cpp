@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(what_is_orthogonal_to_all_responses_stays) {
   BOOST_TEST((SecantInverse(known).apply(r) - r).norm() < 1e-12 * r.norm());
 }
 
-BOOST_AUTO_TEST_CASE(nothing_known_is_the_identity) {
+BOOST_AUTO_TEST_CASE(an_empty_subspace_is_the_identity) {
   const Vector r = columns(1, 0.5).col(0);
   BOOST_TEST((SecantInverse().apply(r) == r));
   BOOST_TEST((SecantInverse({Matrix(kSize, 0), Matrix(kSize, 0)}).apply(r) == r));

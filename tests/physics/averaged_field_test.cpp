@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(two_membranes_alternate_as_their_equations_in_time_do) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(membranes_far_apart_do_not_hear_of_each_other) {
+BOOST_AUTO_TEST_CASE(membranes_far_apart_do_not_interact) {
   const SeveralMembranes two(6, {sphere(6), translated(sphere(6), {0.0, 0.0, 1e4})}, kLaplaceLayers, kLaplacePairs);
   ElectricParameters electric{{0.0, 0.0, 1.0}, 0.5, 1.0, 0.3, 2.0};
   electric.displacement_current = true;

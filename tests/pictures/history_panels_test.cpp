@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(drifts_are_shown_where_they_matter) {
   BOOST_TEST(!shows(panels(Scene(), start + "0,0,0\n"), "inclination"));
 }
 
-BOOST_AUTO_TEST_CASE(a_report_tells_all_that_a_picture_does) {
+BOOST_AUTO_TEST_CASE(a_report_contains_all_that_a_picture_does) {
   Scene scene;
   scene.electric.emplace();
   scene.numerics.tolerance = 1e-3;

@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(give_what_direct_sums_do) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(do_not_know_the_unit_of_length) {
+BOOST_AUTO_TEST_CASE(are_independent_of_the_unit_of_length) {
   const std::vector<Matrix> positions = shapes();
   constexpr double kLength = 0x1p-20;
   SharedTransforms transforms;

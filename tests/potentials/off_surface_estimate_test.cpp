@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(estimate_bounds_the_error) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(sheets_closer_than_the_nodes_are_told_apart) {
+BOOST_AUTO_TEST_CASE(sheets_closer_than_the_nodes_are_separated) {
   // A disc of half thickness t with the grid poles off its axis: nodes of one sheet face gaps of the other.
   constexpr int kOrder = 16;
   const double t = 0.01;

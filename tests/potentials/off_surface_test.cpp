@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(layers_of_harmonics_on_a_sphere_are_exact_at_every_distance
   }
 }
 
-BOOST_AUTO_TEST_CASE(double_layer_of_a_constant_is_the_solid_angle_and_tells_the_side) {
+BOOST_AUTO_TEST_CASE(double_layer_of_a_constant_is_the_solid_angle_and_gives_the_side) {
   const Matrix position = shape_33(16);
   LayerDensities densities;
   densities.laplace_double = std::sqrt(4.0 * std::numbers::pi) * harmonic(16, 0, 0);

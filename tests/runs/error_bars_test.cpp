@@ -140,7 +140,7 @@ double worst_of(const vehd::HistoryTable& history, const vehd::HistoryTable& err
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(steps_of_fixed_size_know_their_error) {
+BOOST_AUTO_TEST_CASE(steps_of_fixed_size_estimate_their_error) {
   // The truncation error is smaller than the error of the steps: an estimate is never below a part of the truncation
   // error, which both runs have in common here.
   for (const std::string order : {"1", "2"}) {

@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(columns_go_by_their_plain_names_whatever_their_units) {
   BOOST_TEST(file_text(plain.path).find(",12,") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(a_history_tells_in_which_units_it_began) {
+BOOST_AUTO_TEST_CASE(a_history_names_its_units) {
   const Written si(kUnits);
   vehd::ReadingNotes notes;
   const vehd::OutputUnits units = vehd::units_of_run({si.path.parent_path()}, kScales, notes);

@@ -88,7 +88,7 @@ void remove_seals(const vehd::RunPaths& paths) {
 
 BOOST_AUTO_TEST_SUITE(run_files)
 
-BOOST_FIXTURE_TEST_CASE(rows_are_known_by_their_checksums_also_behind_the_last_checkpoint, KilledRun) {
+BOOST_FIXTURE_TEST_CASE(rows_are_compared_with_checksums_beyond_the_last_checkpoint_too, KilledRun) {
   const std::string text = file_text(paths.history());
   BOOST_TEST_REQUIRE(std::cmp_greater(text.size(), checkpoint.history_bytes + 100));
   BOOST_TEST(table_refusal(text) == "");

@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(waveform_needs_something_to_act_on) {
 }
 
 // The control row of a sweep over a field or flow has the value zero.
-BOOST_AUTO_TEST_CASE(a_waveform_of_zero_asks_for_no_step) {
+BOOST_AUTO_TEST_CASE(a_zero_waveform_requires_no_step) {
   const std::string train = "kind = 'pulse_train'\nduration = 1e-12\nperiod = 2e-12\n";
   const std::string ac = "kind = 'ac'\nfrequency = 1e12\n";
   for (const std::string& waveform : {train, ac}) {
@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(waveform_that_makes_no_sense_is_refused) {
       "jump");
 }
 
-BOOST_AUTO_TEST_CASE(symmetry_that_is_asked_for_must_be_there) {
+BOOST_AUTO_TEST_CASE(requested_symmetry_must_exist) {
   BOOST_TEST(message_with("symmetry = 'axisymmetric'\n") == "");
   BOOST_TEST(message_with("symmetry = 'axisymmetric'\n[flow]\nkind = 'shear'\nrate = 1\n") ==
              "scene.toml:8: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about one "

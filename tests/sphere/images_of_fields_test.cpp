@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(of_turns_are_rotated_fields) {
   BOOST_TEST(max_difference(ImageOfFields{map}.scalar(field), rotated_fields(field, map.matrix())) < 1e-13);
 }
 
-BOOST_AUTO_TEST_CASE(know_their_originals) {
+BOOST_AUTO_TEST_CASE(map_to_their_originals) {
   BOOST_TEST(!Exchange().any());
   BOOST_TEST(Exchange().original(3) == 3U);
   BOOST_TEST(Exchange().preimage(1, 2) == 2U);

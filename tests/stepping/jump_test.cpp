@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(flow_that_is_switched_has_two_sides_as_well) {
   BOOST_TEST((velocity - before).norm() > 0.5 * before.norm());
 }
 
-BOOST_AUTO_TEST_CASE(no_past_goes_on_through_a_jump) {
+BOOST_AUTO_TEST_CASE(no_extrapolation_crosses_a_jump) {
   const Matrix position = prolate(10);
   Model model = field_model();
   model.electric->waveform = Waveform::pulse(1.0, 0.0, 0.3);

@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(steps_with_a_snapshot_are_what_they_are_without_it) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(moments_know_what_has_died_away_since_the_start) {
+BOOST_AUTO_TEST_CASE(dense_output_contains_no_decayed_transient) {
   // The tension of an ellipsoid has wrinkles that relax in a small part of the first step.
   const Matrix position = ellipsoid(24, {1.0, 1.0, 1.96});
   EvolutionSetup setup = setup_of(relaxation_model(1.0), position, 4);

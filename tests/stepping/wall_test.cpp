@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(a_sinking_vesicle_keeps_its_symmetry) {
   BOOST_TEST(difference_with_symmetry(model, position, 0.1, 3) < 1e-8);
 }
 
-BOOST_AUTO_TEST_CASE(a_vesicle_that_comes_too_near_to_a_wall_is_told) {
+BOOST_AUTO_TEST_CASE(a_vesicle_too_near_to_a_wall_is_named) {
   const Wall wall = floor_without_slip();
   const Discretisation discretisation({.order = 6});
   State state = at_rest(height_above(sphere(6), 1.5));

@@ -87,7 +87,7 @@ class Owner {
 
 BOOST_AUTO_TEST_SUITE(child_process)
 
-BOOST_AUTO_TEST_CASE(end_and_output_of_a_program_are_told) {
+BOOST_AUTO_TEST_CASE(end_and_output_of_a_program_are_returned) {
   const TemporaryDirectory directory;
   const vehd::ChildEnd done =
       vehd::run_child({{"sh", "-c", "echo out; echo err >&2; cat; exit 7"}, directory / "text"});

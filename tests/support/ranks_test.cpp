@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(of_several_failures_the_lowest_rank_is_heard) {
   check_all_say(said, "rank 1");
 }
 
-BOOST_AUTO_TEST_CASE(ranks_that_do_different_things_are_told_so) {
+BOOST_AUTO_TEST_CASE(ranks_that_do_different_things_are_reported) {
   const auto said = on_ranks(2, [](const Ranks& ranks) -> std::string {
     if (ranks.is_first()) {
       (void)ranks.any(false);

@@ -121,7 +121,7 @@ BOOST_FIXTURE_TEST_CASE(on_another_machine_the_time_of_the_claim_decides, RunFol
   BOOST_TEST(Claim::take(run) == nullptr);
 }
 
-BOOST_FIXTURE_TEST_CASE(nobody_waits_for_a_claim_that_was_given_back, RunFolder) {
+BOOST_FIXTURE_TEST_CASE(released_claims_are_taken_at_once, RunFolder) {
   BOOST_TEST(Claim::take(run) != nullptr);
   BOOST_TEST((age_of_claim(1) > std::chrono::seconds(1000)));
 }

@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(near_parts_are_seen_and_finer_quadrature_helps) {
   BOOST_TEST(check_of(16, disc, 1.15, kStokesLayer).truncation < 0.01 * coarse);
 }
 
-BOOST_AUTO_TEST_CASE(truncation_is_told_from_quadrature) {
+BOOST_AUTO_TEST_CASE(truncation_is_distinguished_from_quadrature) {
   // Not band-limited: at order 10 the truncation error dominates, whatever the quadrature.
   const Matrix shape = shape_33(10);
   const LayerCheck coarse = check_of(10, shape, 1.5, kStokesLayer);

@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(a_rough_solve_takes_few_iterations_at_every_degree_and_stif
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_is_known_serves_another_shape_and_another_step) {
+BOOST_AUTO_TEST_CASE(subspaces_are_reused_for_other_shapes_and_steps) {
   const Model model = stiff_model();
   const Space space(kOrder);
   const Matrix shape = asymmetric_shape(kOrder);
@@ -200,7 +200,7 @@ BOOST_AUTO_TEST_CASE(what_is_known_serves_another_shape_and_another_step) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_is_known_of_a_system_solves_it_again) {
+BOOST_AUTO_TEST_CASE(a_subspace_of_a_system_solves_it_again) {
   const Model model = stiff_model();
   const Space space(kOrder);
   const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);
@@ -216,7 +216,7 @@ BOOST_AUTO_TEST_CASE(what_is_known_of_a_system_solves_it_again) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_is_known_of_another_degree_is_forgotten) {
+BOOST_AUTO_TEST_CASE(subspaces_of_another_degree_are_dropped) {
   const Model model = stiff_model();
   const Space space(kOrder), other(kOrder + 2);
   const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);

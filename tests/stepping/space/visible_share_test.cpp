@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(ripples_are_seen) {
   BOOST_TEST(share.potential <= 1.0);
 }
 
-BOOST_AUTO_TEST_CASE(nothing_is_known_where_there_are_no_high_degrees) {
+BOOST_AUTO_TEST_CASE(there_is_no_estimate_without_high_degrees) {
   SurfaceFields fields;
   fields.position = ellipsoid(kSharedOrder, {1.0, 1.3, 0.8});
   BOOST_TEST(visible_share(share_grid(), fields).shape == 1.0);

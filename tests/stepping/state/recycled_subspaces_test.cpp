@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(what_was_learned_changes_the_step_by_less_than_its_toleranc
   BOOST_TEST(max_difference(with.state.vesicles[0].position, without.state.vesicles[0].position) < 1e-7);
 }
 
-BOOST_AUTO_TEST_CASE(a_step_that_is_known_takes_fewer_iterations) {
+BOOST_AUTO_TEST_CASE(a_repeated_step_takes_fewer_iterations) {
   // Recycling from other steps depends on rounding, since nearly parallel directions are left out; recycling from the
   // same step works on any processor.
   const Model model = shear_model();
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(memory_stays_bounded) {
   BOOST_TEST(steps.end.vesicles[0].recycled.tension->subspace().count() <= thresholds::most_recycled);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_known_is_had_in_its_own_coefficients_alone) {
+BOOST_AUTO_TEST_CASE(subspaces_are_returned_in_their_own_coefficients_only) {
   constexpr int kOrder = 4;
   const std::vector<Index> all = scalar_entries({}, kOrder);
   const Matrix arguments = random_coefficients(kOrder, 2, 1);
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(what_is_known_is_had_in_its_own_coefficients_alone) {
   BOOST_CHECK_THROW(RecycledScalars(all, {both, arguments}), ShapeError);
 }
 
-BOOST_AUTO_TEST_CASE(rotated_state_knows_nothing_in_the_coefficients_of_former_axes) {
+BOOST_AUTO_TEST_CASE(rotated_state_keeps_no_subspace_of_former_axes) {
   const State learned = steps_of(shear_model(), ellipsoid(6, {2.0, 1.0, 0.9}), 0.1, 1).end;
   BOOST_TEST_REQUIRE((learned.vesicles[0].recycled.flow && learned.vesicles[0].recycled.tension));
   const State there = rotated(general_rotation(), learned);
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(rotated_state_knows_nothing_in_the_coefficients_of_former_a
   BOOST_TEST((here.vesicles[0].recycled.flow == learned.vesicles[0].recycled.flow));
 }
 
-BOOST_AUTO_TEST_CASE(resized_state_knows_nothing_in_the_coefficients_of_the_former_degree) {
+BOOST_AUTO_TEST_CASE(resized_state_keeps_no_subspace_of_the_former_degree) {
   const State learned = steps_of(shear_model(), ellipsoid(6, {2.0, 1.0, 0.9}), 0.1, 1).end;
   BOOST_TEST_REQUIRE((learned.vesicles[0].recycled.flow && learned.vesicles[0].recycled.tension));
   for (const int order : {4, 9}) {

@@ -22,7 +22,7 @@ BOOST_AUTO_TEST_CASE(geometric_changes_leave_the_rest_of_their_series) {
   BOOST_TEST(changes.error_after(1) == kRatio);
 }
 
-BOOST_AUTO_TEST_CASE(changes_that_tell_little_are_the_error_themselves) {
+BOOST_AUTO_TEST_CASE(corrections_that_hardly_contract_are_the_error) {
   Corrections one;
   one.add(3.0);
   BOOST_TEST(one.error_after(1) == 3.0);

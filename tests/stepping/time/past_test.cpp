@@ -66,7 +66,7 @@ class ConvergedStep {
 
 BOOST_AUTO_TEST_SUITE(past)
 
-BOOST_AUTO_TEST_CASE(past_goes_on_with_one_order_more_than_it_has_times) {
+BOOST_AUTO_TEST_CASE(extrapolation_has_one_order_more_than_it_has_times) {
   const Model model = driven_model();
   const Matrix position = ellipsoid(kDegreeOfPast, {1.5, 1.2, 0.9});
   NumericalSettings settings = solved_to_rounding(kDegreeOfPast);

@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(way_ends_with_the_reason_where_no_step_is_good) {
   BOOST_TEST(evolution.state().time == 0.0);
 }
 
-BOOST_AUTO_TEST_CASE(initial_state_starts_where_it_is_told) {
+BOOST_AUTO_TEST_CASE(initial_state_starts_at_the_given_place) {
   const Discretisation discretisation = discretisation_of(8);
   Instruments instruments;
   const Model model = field_model();

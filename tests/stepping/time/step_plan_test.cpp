@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(snapshots_come_at_several_rates) {
 }
 
 // Times that several schedules contain differ by rounding: a sliver between them would be a step of its own.
-BOOST_AUTO_TEST_CASE(moments_that_several_ask_for_are_one) {
+BOOST_AUTO_TEST_CASE(times_requested_twice_are_one) {
   std::vector<double> tenths;
   for (int k = 1; k < 50; ++k) tenths.push_back(k / 10.0);
   const vehd::EventTimes events{{0.1, tenths, {{0.0, 5.0, 0.1}, {0.2, 4.8, 0.2}, {0.7, 5.0, 0.1}}}, 5.0};
