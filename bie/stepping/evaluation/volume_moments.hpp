@@ -44,7 +44,7 @@ struct Turning {
 /// turns.
 /// @param velocity  of the points, [n_points x 3]
 /// @param axis      of any length but zero
-/// Accuracy: spectral; for turning ellipsoids whose membrane circulates to 1e-12
+/// Accuracy: spectral; for turning ellipsoids whose membrane circulates to 1e-10
 /// (tests/stepping/evaluation/volume_moments_test.cpp)
 /// Source: the flow on an ellipsoid is that of Keller and Skalak 1982
 Turning turning(const Surface& surface, const VolumeMoments& moments, const Matrix& velocity, const Vector3& axis);

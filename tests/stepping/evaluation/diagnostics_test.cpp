@@ -208,6 +208,14 @@ BOOST_AUTO_TEST_CASE(shape_rate_is_that_of_the_shape_alone) {
   }
 }
 
+// It rotates as a rigid one, by half of the vorticity, and has no long axis that could tumble.
+BOOST_AUTO_TEST_CASE(an_inextensible_sphere_in_shear_treads_at_half_the_shear_rate) {
+  const Model model = shear_model();
+  const VesicleDiagnostics d = diagnostics_of(model, start(model, discretisation_of(kOrder), sphere(kOrder, 1.3), 0.1));
+  BOOST_TEST(std::abs(d.treading_frequency - model.flow->gradient(0, 2) / (4.0 * std::numbers::pi)) < 1e-10);
+  BOOST_TEST(d.tumbling_frequency == 0.0);
+}
+
 BOOST_AUTO_TEST_CASE(aspect_ratios_of_an_ellipsoid_are_those_of_its_axes) {
   Model model;
   model.electric.emplace().field = Vector3(3.0, 0.0, 0.0);
