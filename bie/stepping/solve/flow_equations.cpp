@@ -237,6 +237,8 @@ RecycledSubspace FlowEquations::in_system(const RecycledSubspace& recycled) cons
 }
 
 RecycledSubspace FlowEquations::in_scalars(const RecycledSubspace& recycled) const {
+  // A block of a matrix without columns would begin at an offset from a null pointer.
+  if (recycled.count() == 0) return recycled;
   RecycledSubspace result = recycled;
   result.arguments.topRows(n_shape()) *= shape_scale_;
   result.arguments.bottomRows(n_tension()) *= tension_scale_;
