@@ -16,7 +16,7 @@ std::filesystem::path program_path(const std::string& name, const std::filesyste
 
 /// A program to start. Its standard input is empty.
 struct ChildProgram {
-  std::vector<std::string> words;  ///< its name, resolved by place_of_program(), and its arguments
+  std::vector<std::string> words;  ///< its name, resolved by program_path(), and its arguments
   std::filesystem::path output;    ///< file for its standard output and error; empty: those of this process
   std::filesystem::path folder{};  ///< its working directory; empty: that of this process
 };
