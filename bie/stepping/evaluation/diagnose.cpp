@@ -141,7 +141,7 @@ namespace {
 
 /// Position, motion and elongation of the membrane.
 void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTransform& fine, const Surface& s,
-                 const VesicleFields& fields, VesicleDiagnostics& d) {
+                 const VesicleSolution& solution, const VesicleFields& fields, VesicleDiagnostics& d) {
   const VolumeMoments moments = volume_moments(s);
   std::tie(d.centroid_x, d.centroid_y, d.centroid_z) = components(moments.centroid);
   if (fields.velocity.size() > 0) {
@@ -152,7 +152,9 @@ void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTra
     d.shape_rate = relative.cwiseProduct(s.normal).rowwise().sum().cwiseAbs().maxCoeff() /
                    std::sqrt(d.area / (4.0 * std::numbers::pi));
     if (!vorticity.isZero(0.0)) {
-      const Turning turns = turning(s, moments, velocity, vorticity);
+      // A sphere moves as a rigid one, whatever its instantaneous velocity.
+      const Turning turns =
+          turning(s, moments, solution.is_sphere ? fine.synthesize(solution.rate.position) : velocity, vorticity);
       d.tumbling_frequency = turns.shape;
       d.treading_frequency = turns.membrane;
     }
@@ -256,7 +258,7 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
   d.volume_drift = d.volume / vesicle.reference_volume - 1.0;
   d.strain_max = fine.synthesize(vesicle.area_strain).cwiseAbs().maxCoeff();
   d.spectrum_tail = spectrum_tail(vesicle.position);
-  add_moments(field, model.flow ? vorticity(*model.flow) : Vector3(Vector3::Zero()), fine, s, fields, d);
+  add_moments(field, model.flow ? vorticity(*model.flow) : Vector3(Vector3::Zero()), fine, s, solution, fields, d);
   if (fields.tension.size() > 0) {
     const Vector tension = fine.synthesize(fields.tension);
     d.tension_integral = tension.dot(s.quadrature);
