@@ -94,7 +94,7 @@ class ModelRangeChecks {
     return result;
   }
 
-  std::vector<ModelWarning> checks(const LargestValues& reached) {
+  std::vector<ModelWarning> warnings_at(const LargestValues& reached) {
     if (!scene_.poration) judge_potential(reached.potential);
     if (scene_.membrane.mobile) judge_mechanics(reached);
     if (field_ > 0.0) judge_electrolyte();
@@ -231,7 +231,7 @@ std::vector<ModelWarning> model_warnings(const Scene& scene, const std::optional
   std::vector<ModelWarning> all;
   for (const Scene& one : each_alone(scene)) {
     ModelRangeChecks checks(one);
-    for (ModelWarning& warning : checks.checks(reached ? *reached : checks.expected())) {
+    for (ModelWarning& warning : checks.warnings_at(reached ? *reached : checks.expected())) {
       const auto known = std::ranges::find(all, warning.name, &ModelWarning::name);
       if (known == all.end()) {
         all.push_back(std::move(warning));
