@@ -145,16 +145,15 @@ void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTra
   const VolumeMoments moments = volume_moments(s);
   std::tie(d.centroid_x, d.centroid_y, d.centroid_z) = components(moments.centroid);
   if (fields.velocity.size() > 0) {
-    const Matrix velocity = fine.synthesize(fields.velocity);
+    // A sphere moves as a rigid one, whatever its instantaneous velocity.
+    const Matrix velocity = fine.synthesize(solution.is_sphere ? solution.rate.position : fields.velocity);
     const Vector3 of_centroid = centroid_velocity(s, moments, velocity);
     std::tie(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z) = components(of_centroid);
     const Matrix relative = velocity.rowwise() - of_centroid.transpose();
     d.shape_rate = relative.cwiseProduct(s.normal).rowwise().sum().cwiseAbs().maxCoeff() /
                    std::sqrt(d.area / (4.0 * std::numbers::pi));
     if (!vorticity.isZero(0.0)) {
-      // A sphere moves as a rigid one, whatever its instantaneous velocity.
-      const Turning turns =
-          turning(s, moments, solution.is_sphere ? fine.synthesize(solution.rate.position) : velocity, vorticity);
+      const Turning turns = turning(s, moments, relative, vorticity);
       d.tumbling_frequency = turns.shape;
       d.treading_frequency = turns.membrane;
     }

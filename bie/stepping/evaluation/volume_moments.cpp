@@ -51,19 +51,18 @@ Vector3 centroid_velocity(const Surface& s, const VolumeMoments& moments, const 
   return flux_integral(s, velocity, y).transpose() / enclosed_volume(s);
 }
 
-Turning turning(const Surface& s, const VolumeMoments& moments, const Matrix& velocity, const Vector3& axis) {
+Turning turning(const Surface& s, const VolumeMoments& moments, const Matrix& relative_velocity, const Vector3& axis) {
   // Two directions that form a right-handed system with the axis.
   Eigen::Matrix<double, 3, 2> across;
   across.col(0) = axis.unitOrthogonal();
   across.col(1) = axis.normalized().cross(across.col(0));
   const Matrix y = (s.position.rowwise() - moments.centroid.transpose()) * across;
-  const Matrix relative = velocity.rowwise() - centroid_velocity(s, moments, velocity).transpose();
 
   // tan 2ψ = 2 G₁₂/(G₁₁ − G₂₂) of the second moments G of the volume, dG/dt = ∫ (v·n) y yᵀ dA.
   const Eigen::Matrix2d spread = across.transpose() * moments.spread * across;
   Eigen::Matrix2d rate;
   for (int i = 0; i < 2; ++i) {
-    rate.row(i) = flux_integral(s, relative, y.col(i).asDiagonal() * y) / enclosed_volume(s);
+    rate.row(i) = flux_integral(s, relative_velocity, y.col(i).asDiagonal() * y) / enclosed_volume(s);
   }
   const double difference = spread(0, 0) - spread(1, 1), product = 2.0 * spread(0, 1);
   const double length = std::hypot(difference, product);
@@ -73,7 +72,7 @@ Turning turning(const Surface& s, const VolumeMoments& moments, const Matrix& ve
                             : (difference * rate(0, 1) - product * 0.5 * (rate(0, 0) - rate(1, 1))) / (length * length);
 
   const Matrix weighted = s.quadrature.asDiagonal() * y;
-  Eigen::Matrix2d fit = ((relative * across).transpose() * weighted) * (y.transpose() * weighted).inverse();
+  Eigen::Matrix2d fit = ((relative_velocity * across).transpose() * weighted) * (y.transpose() * weighted).inverse();
   fit(0, 1) += turned;
   fit(1, 0) -= turned;
   const double square = fit.determinant() - 0.25 * fit.trace() * fit.trace();

@@ -42,12 +42,13 @@ struct Turning {
 /// A′ = A minus the rotation dψ/dt. Exact if v is linear in x, as in the flow of an ellipsoid whose points move on
 /// ellipses. A shape that is round about the axis does not tumble; tank-treading is 0 if A′ deforms faster than it
 /// turns.
-/// @param velocity  of the points, [n_points x 3]
-/// @param axis      of any length but zero
+/// @param relative_velocity  of the points to the centroid, v − v_c, [n_points x 3]
+/// @param axis               of any length but zero
 /// Accuracy: spectral; for turning ellipsoids whose membrane circulates to 1e-10
 /// (tests/stepping/evaluation/volume_moments_test.cpp)
 /// Source: the flow on an ellipsoid is that of Keller and Skalak 1982
-Turning turning(const Surface& surface, const VolumeMoments& moments, const Matrix& velocity, const Vector3& axis);
+Turning turning(const Surface& surface, const VolumeMoments& moments, const Matrix& relative_velocity,
+                const Vector3& axis);
 
 /// s_2 … s_6 of the radius r = a(1 + Σ s_l P_l(cos γ)) about a centre, γ the angle from an axis, averaged over the
 /// azimuth:

@@ -214,6 +214,7 @@ BOOST_AUTO_TEST_CASE(an_inextensible_sphere_in_shear_treads_at_half_the_shear_ra
   const VesicleDiagnostics d = diagnostics_of(model, start(model, discretisation_of(kOrder), sphere(kOrder, 1.3), 0.1));
   BOOST_TEST(std::abs(d.treading_frequency - model.flow->gradient(0, 2) / (4.0 * std::numbers::pi)) < 1e-10);
   BOOST_TEST(d.tumbling_frequency == 0.0);
+  BOOST_TEST(d.shape_rate < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(aspect_ratios_of_an_ellipsoid_are_those_of_its_axes) {

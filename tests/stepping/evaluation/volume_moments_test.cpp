@@ -125,9 +125,9 @@ BOOST_AUTO_TEST_CASE(an_ellipsoid_tumbles_and_its_membrane_treads) {
     Matrix3 spin;
     spin << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
     const Matrix3 gradient = treading + rotation * spin;
-    const Matrix velocity = (s.position * gradient.transpose()).rowwise() + Eigen::RowVector3d(3.0, 1.0, -7.0);
+    const Matrix relative = (s.position.rowwise() - moments.centroid.transpose()) * gradient.transpose();
     for (const double side : {2.0, -1.0}) {
-      const Turning turns = turning(s, moments, velocity, side * axis);
+      const Turning turns = turning(s, moments, relative, side * axis);
       const double sign = side > 0.0 ? 1.0 : -1.0;
       BOOST_TEST(std::abs(2.0 * std::numbers::pi * turns.shape - sign * rotation) < 1e-10);
       BOOST_TEST(std::abs(2.0 * std::numbers::pi * turns.membrane - sign * circulation) < 1e-10);
