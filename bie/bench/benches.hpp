@@ -53,9 +53,7 @@ struct TimeTask {
 /// @throws InputError, ConvergenceError
 BenchResult bench_time(const TimeTask& task, BenchObserver& observer);
 
-/// Seconds of the first step of the scene, and of each part of a steady step with its memory, against the degree; the
-/// exponents with which they grow, and the fraction of the measured peak of the machine at which their counted
-/// operations run, see StepTimer.
+/// Seconds of the first step of the scene, and of each part of a steady step with its memory, against the degree.
 /// @param orders  ascending
 /// @throws InputError if the scene has no dt
 BenchResult bench_parts(Scene scene, const std::vector<int>& orders, int repeats, BenchObserver& observer);

@@ -5,11 +5,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "bie/bench/assembly_arithmetic.hpp"
-#include "bie/stepping/evaluation/evaluation.hpp"
-#include "bie/stepping/space/discretisation.hpp"
-#include "bie/stepping/state/composition.hpp"
-#include "bie/stepping/time/deferred_correction.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -71,24 +66,6 @@ std::uint64_t StepTimer::kernel_evaluations() const {
   std::uint64_t sum = 0;
   for (const auto& [kernel, count] : instruments_.kernel_evaluations()) sum += count;
   return sum;
-}
-
-std::map<std::string, double> StepTimer::operations() const {
-  const MembraneSpace space(problem_.settings, problem_.symmetry);
-  std::map<std::string, double> result;
-  result["operator assembly"] =
-      evaluations_per_step(problem_.settings.time_order) *
-      operations_per_assembly(space.quadrature(), space.targets(),
-                              needed_layers(problem_.model, problem_.model.vesicles.front(), true), space.subspace(),
-                              space.fold());
-  const StokesOperator& stokes = evolution_.evaluation().vesicles.front().membrane->layers.stokes_single;
-  if (problem_.settings.time_order == 1 && !stokes.empty()) {
-    const double of_an_iteration = 2.0 * stokes.multiplications();
-    const int in_tension = evolution_.evaluation().iterations_flow;
-    result["tension solve"] = of_an_iteration * in_tension;
-    result["velocity solve"] = of_an_iteration * (last_.iterations_flow - in_tension);
-  }
-  return result;
 }
 
 double seconds_to_the_first_step(const Scene& scene) {

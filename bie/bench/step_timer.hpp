@@ -32,9 +32,6 @@ class StepTimer {
   [[nodiscard]] const std::vector<double>& iterations() const { return iterations_; }
   /// Peak memory of each part, see MemoryMeter.
   [[nodiscard]] const std::map<std::string, std::int64_t>& bytes() const { return meter_.peaks(); }
-  /// Floating-point operations of parts in the last step: kernels and matrix products of the assembly, and in the
-  /// solves of a first-order step the applications of the Stokes operator, one per iteration.
-  [[nodiscard]] std::map<std::string, double> operations() const;
   /// Kernel evaluations of all operators and all steps so far.
   [[nodiscard]] std::uint64_t kernel_evaluations() const;
   [[nodiscard]] const State& state() const { return evolution_.state(); }

@@ -170,10 +170,6 @@ Matrix StokesOperator::apply(const Matrix& density) const {
   return apply_blocks(density);
 }
 
-double StokesOperator::multiplications() const {
-  return static_cast<double>(entries_.empty() ? 9 * n_rows() * n_rows() : on_entries_.size());
-}
-
 Matrix StokesOperator::between(Index n_coefficients, const std::vector<Index>& entries) const {
   const std::vector<Index>& known = entries_.empty() ? active_ : entries_;
   // Position of each entry in the matrices, −1 if absent.

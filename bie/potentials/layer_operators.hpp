@@ -135,8 +135,6 @@ class StokesOperator {
   /// @param entries         ascending; entries beyond those of the operator give zeros
   /// @return                [entries x entries]
   [[nodiscard]] Matrix between(Index n_coefficients, const std::vector<Index>& entries) const;
-  /// Number of multiplications of one application.
-  [[nodiscard]] double multiplications() const;
 
  private:
   /// Number of coefficients per component if there are blocks.

@@ -5,8 +5,6 @@
 #include <regex>
 
 #include "bie/bench/pages.hpp"
-#include "bie/bench/step_timer.hpp"
-#include "bie/scene/reader.hpp"
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
 
@@ -121,24 +119,14 @@ BOOST_AUTO_TEST_CASE(errors_in_space_fall_with_the_degree) {
 }
 
 BOOST_AUTO_TEST_CASE(values_of_the_command_line_take_the_place_of_those_of_the_scene) {
-  const std::vector<std::string> asked = {"parts", "SCENE", "--orders", "8", "--repeats", "1"};
-  std::vector<std::string> without_symmetry = asked;
-  without_symmetry.insert(without_symmetry.end(), {"--set", "numerics.symmetry=off"});
-  const Bench with(asked), without(without_symmetry);
-  const auto operations = [](const Bench& bench) {
-    const nlohmann::json& row = bench.json["rows"].front();
-    return number(row, "peak_fraction_operator_assembly") * number(bench.json, "peak_operations_per_second") *
-           number(row, "seconds_operator_assembly");
-  };
-  BOOST_TEST(operations(without) > 2.0 * operations(with));
-  BOOST_TEST(without.json["scene"].get<std::string>().ends_with("scene.toml --set numerics.symmetry=off"));
+  const Bench bench({"parts", "SCENE", "--orders", "8", "--repeats", "1", "--set", "numerics.dt=0.125"});
+  BOOST_TEST(number(bench.json, "dt") == 0.125);
+  BOOST_TEST(bench.json["scene"].get<std::string>().ends_with("scene.toml --set numerics.dt=0.125"));
 }
 
 BOOST_AUTO_TEST_CASE(parts_of_a_step_add_up_to_it) {
   const Bench bench({"parts", "SCENE", "--orders", "6,10", "--repeats", "1"});
   files_say_what_they_hold_for(bench);
-  const double peak = number(bench.json, "peak_operations_per_second");
-  vehd::Scene scene = vehd::read_scene(bench.directory / "scene.toml");
   for (const auto& row : bench.json["rows"]) {
     double sum = 0.0;
     for (const auto& [key, value] : row.items()) {
@@ -151,24 +139,10 @@ BOOST_AUTO_TEST_CASE(parts_of_a_step_add_up_to_it) {
     BOOST_TEST(number(row, "seconds_operator_assembly") > 0.0);
     BOOST_TEST(number(row, "seconds_electric") > 0.0);
     BOOST_TEST(number(row, "first_step_seconds") > 0.0);
-    scene.numerics.order = row["order"].get<int>();
-    const double operations = vehd::StepTimer(scene).operations().at("operator assembly");
-    BOOST_TEST(
-        number(row, "peak_fraction_operator_assembly") * peak * number(row, "seconds_operator_assembly") == operations,
-        boost::test_tools::tolerance(1e-9));
     // Both are measured in pages, over different intervals.
     constexpr double kPages = 4 * 4096.0;
     BOOST_TEST(number(row, "bytes_step") >= number(row, "bytes_operator_assembly") - kPages);
   }
-  bool has_step = false;
-  for (const auto& row : bench.json["growth"]) {
-    has_step = has_step || row["part"] == "step";
-    BOOST_TEST(row.contains("exponent_seconds"));
-    BOOST_TEST(row.contains("exponent_bytes"));
-    BOOST_TEST(row.contains("peak_fraction"));
-  }
-  BOOST_TEST(has_step);
-  BOOST_TEST(fs::exists(bench.file("_growth.csv")));
 }
 
 BOOST_AUTO_TEST_CASE(threads_do_not_change_the_result) {
