@@ -13,22 +13,6 @@
 
 namespace vehd {
 
-std::optional<DegreeOfError> degree_of_error(const ExactProblem& problem, double error, int lowest, int highest) {
-  const auto at = [&problem](int degree) { return DegreeOfError{degree, problem.solve(degree).error}; };
-  DegreeOfError enough = at(highest);
-  if (!(enough.error <= error)) return std::nullopt;
-  int too_low = lowest - 1;
-  while (enough.degree - too_low > 1) {
-    const DegreeOfError middle = at((too_low + enough.degree) / 2);
-    if (middle.error <= error) {
-      enough = middle;
-    } else {
-      too_low = middle.degree;
-    }
-  }
-  return enough;
-}
-
 std::optional<std::int64_t> memory_of(const std::function<void()>& solve) {
   constexpr const char* part = "solution";
   MemoryMeter meter;
@@ -69,23 +53,22 @@ Matrix example1_position(int order) {
   return initial_position(scene);
 }
 
-Example1Result solve_example1(int order, int upsampling, double tolerance) {
+Example1Result solve_example1(int order, int upsampling) {
+  constexpr double kTolerance = 1e-10;
   NumericalSettings settings;
   settings.order = order;
   settings.upsampling = upsampling;
-  const auto begin = std::chrono::steady_clock::now();
   const MembraneSpace space(settings, {});
-  const std::chrono::duration<double> tables = std::chrono::steady_clock::now() - begin;
   const Matrix position = example1_position(order);
 
   const auto start = std::chrono::steady_clock::now();
   Instruments instruments;
   const LayerSelection selection{true, true, true, false};
   const Membrane membrane = membrane_at(space, position, selection, 1.0, instruments);
-  const PointSourceErrors errors = point_source_errors(example1_electric(), example1_sources(), membrane, tolerance);
+  const PointSourceErrors errors = point_source_errors(example1_electric(), example1_sources(), membrane, kTolerance);
   require_converged(errors.report, "charge density, Eq. (35)");
   const std::chrono::duration<double> solution = std::chrono::steady_clock::now() - start;
-  return {order, errors, solution.count(), (tables + solution).count()};
+  return {order, errors, solution.count()};
 }
 
 namespace {
@@ -112,9 +95,7 @@ Matrix linear_image_of_sphere(int order, const Matrix3& map) {
 SolvedProblem solve_translating_prolate(int order) {
   NumericalSettings settings;
   settings.order = order;
-  const auto begin = std::chrono::steady_clock::now();
   const MembraneSpace space(settings, {});
-  const std::chrono::duration<double> tables = std::chrono::steady_clock::now() - begin;
   const Matrix3 frame = rotated_frame();
   const Matrix3 stretch = Vector3(1.0, 1.0, 2.0).asDiagonal();
   const Matrix position = linear_image_of_sphere(order, frame * stretch * frame.transpose());
@@ -135,7 +116,6 @@ SolvedProblem solve_translating_prolate(int order) {
   pull(frame.col(2), exact.along);
   pull(frame.col(0), exact.across);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  result.first_seconds = tables.count() + result.seconds;
   return result;
 }
 

@@ -12,45 +12,26 @@ namespace vehd {
 
 /// Solution of a problem with a known answer at one degree.
 struct SolvedProblem {
-  double error = 0.0;          ///< relative to the largest value of the field
-  double seconds = 0.0;        ///< without tables of the degree, as for every solution but the first
-  double first_seconds = 0.0;  ///< tables included
+  double error = 0.0;    ///< relative to the largest value of the field
+  double seconds = 0.0;  ///< without tables of the degree, as for every solution but the first
 };
-
-/// A problem with a known answer that can be solved at any degree.
-struct ExactProblem {
-  std::string field;  ///< name of the field with this error
-  std::function<SolvedProblem(int degree)> solve;
-};
-
-/// The lowest degree that reaches an error.
-struct DegreeOfError {
-  int degree = 0;
-  double error = 0.0;  ///< at this degree
-};
-
-/// The lowest degree from lowest to highest at which the error is at most `error`, by bisection; nothing if the highest
-/// is not enough. If errors do not fall monotonically, the result is enough and the degree below it is not.
-/// @param lowest  ≥ 1
-std::optional<DegreeOfError> degree_of_error(const ExactProblem& problem, double error, int lowest, int highest);
 
 /// Peak memory of a solution beyond what the process held before, see MemoryMeter; nothing if the system does not
 /// report it.
 std::optional<std::int64_t> memory_of(const std::function<void()>& solve);
 
-/// Example 1 of the paper: Eq. (35) on shape (33) with σ_i = 2, σ_e = 1 and six point sources.
+/// Example 1 of the paper: Eq. (35) on shape (33) with σ_i = 2, σ_e = 1 and six point sources, solved to a relative
+/// residual of 1e-10.
 /// Source: paper, Example 1 and Figure 1
 struct Example1Result {
   int order = 0;
-  PointSourceErrors errors;    ///< over the nodes of the upsampled grid
-  double seconds = 0.0;        ///< operators, solve and fields; tables of the order excluded
-  double first_seconds = 0.0;  ///< tables included
+  PointSourceErrors errors;  ///< over the nodes of the upsampled grid
+  double seconds = 0.0;      ///< operators, solve and fields; tables of the order excluded
 };
 
 /// @param upsampling  of the grid for products and errors; 1 as in the paper: the 2(p+1)² nodes
-/// @param tolerance   relative tolerance of the solve
 /// @throws ConvergenceError if the solve does not converge
-Example1Result solve_example1(int order, int upsampling = 1, double tolerance = 1e-10);
+Example1Result solve_example1(int order, int upsampling = 1);
 
 /// Point sources of the example.
 std::vector<PointSource> example1_sources();

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <map>
 
 #include "bie/bench/benches.hpp"
@@ -32,64 +30,6 @@ BenchTable empty_space_table() {
            {"seconds_velocity", "seconds, prolate", "{:.2g}", true}}};
 }
 
-constexpr std::array kEqualErrors = {1e-4, 1e-7, 1e-10};
-/// End of the search for a degree: as far beyond the requested ones as rates can be trusted to hold.
-int highest_degree(const std::vector<int>& orders) {
-  constexpr int kBeyond = 2, kLargest = 64;
-  return std::min(kLargest, kBeyond * *std::max_element(orders.begin(), orders.end()));
-}
-
-/// Keeps the error of the solver negligible beside that of the degree.
-constexpr double kSolved = 1e-13;
-
-/// Cost of equal errors, for the comparison with other codes.
-BenchTable equal_table(const std::vector<int>& orders, int repeats, BenchTasks& tasks, BenchObserver& observer) {
-  BenchTable table{"equal",
-                   {{"field", "field", "{}", false, 22},
-                    {"error", "error", "{:.0e}"},
-                    {"order", "p"},
-                    {"error_there", "error at p", "{:.1e}"},
-                    {"first_seconds", "first", "{:.2g}", true},
-                    {"seconds", "seconds", "{:.2g}", true},
-                    {"bytes", ""},
-                    {"megabytes", "MB", "{:.0f}"}}};
-  const auto force_of_example1 = [](int degree) {
-    const Example1Result r = solve_example1(degree, 1, kSolved);
-    return SolvedProblem{r.errors.force, r.seconds, r.first_seconds};
-  };
-  const std::array<ExactProblem, 2> problems = {ExactProblem{"f_E, Example 1", force_of_example1},
-                                                ExactProblem{"velocity, 2:1 prolate", solve_translating_prolate}};
-  constexpr int kLowest = 4;
-  observer.heading(table);
-  for (const ExactProblem& problem : problems) {
-    for (const double error : kEqualErrors) {
-      tasks.next(fmt::format("{}: {:.0e}", problem.field, error));
-      const std::optional<DegreeOfError> found = degree_of_error(problem, error, kLowest, highest_degree(orders));
-      std::vector<BenchCell> row(table.columns.size());
-      row[0] = problem.field;
-      row[1] = error;
-      if (found) {
-        std::vector<double> first_seconds, seconds;
-        while (wants_repeat(first_seconds, repeats)) {
-          const SolvedProblem solved = problem.solve(found->degree);
-          first_seconds.push_back(solved.first_seconds);
-          seconds.push_back(solved.seconds);
-        }
-        row[2] = std::int64_t{found->degree};
-        row[3] = found->error;
-        row[4] = spread_of(first_seconds);
-        row[5] = spread_of(seconds);
-        if (const auto bytes = memory_of([&] { static_cast<void>(problem.solve(found->degree)); })) {
-          row[6] = *bytes;
-          row[7] = static_cast<double>(*bytes) / 1e6;
-        }
-      }
-      add_row(table, std::move(row), observer);
-    }
-  }
-  return table;
-}
-
 }  // namespace
 
 BenchResult bench_space(const std::vector<int>& orders, int repeats, BenchObserver& observer) {
@@ -98,8 +38,7 @@ BenchResult bench_space(const std::vector<int>& orders, int repeats, BenchObserv
                   {"velocity_problem", "2:1 prolate pulled along and across its axis, poles of the grid off the axis"},
                   {"seconds_are", "from the shape to the fields, tables of the degree excluded"}};
   BenchTable& table = result.tables.front();
-  const int n_equal = 2 * static_cast<int>(kEqualErrors.size());
-  BenchTasks tasks(static_cast<int>(orders.size()) * repeats + n_equal, observer);
+  BenchTasks tasks(static_cast<int>(orders.size()) * repeats, observer);
   observer.heading(table);
   for (const int order : orders) {
     std::vector<double> electric_seconds, stokes_seconds;
@@ -123,8 +62,6 @@ BenchResult bench_space(const std::vector<int>& orders, int repeats, BenchObserv
              stokes.error, spread_of(stokes_seconds)},
             observer);
   }
-  BenchTable equal = equal_table(orders, repeats, tasks, observer);
-  result.tables.push_back(std::move(equal));
   return result;
 }
 

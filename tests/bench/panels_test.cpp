@@ -43,7 +43,6 @@ BOOST_FIXTURE_TEST_CASE(what_an_order_can_do_is_shown_apart_from_the_degree, Tab
 
 BOOST_FIXTURE_TEST_CASE(further_tables_have_pictures_where_they_are_curves, Tables) {
   BOOST_TEST(panels("time_digits", "integrator,error_largest,seconds_of_a_digit\norder 1,1e-2,10\n").empty());
-  BOOST_TEST(panels("space_equal", "field,error,order\nv,1e-4,8\n").empty());
   const auto drawn = panels("methods_from_shape",
                             "method,label,degree,unknowns,seconds,error_velocity,error_tension\n"
                             "bie,BIE,8,162,0.1,2e-2,1e-2\nbie,BIE,12,338,0.3,4e-3,2e-3\n"
