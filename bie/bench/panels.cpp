@@ -6,7 +6,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "bie/pictures/gnuplot.hpp"
 #include "bie/support/csv.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
@@ -215,24 +214,17 @@ std::vector<BenchPanel> from_shape_panels(const BenchRecord& record) {
   return panels_of_methods(record, {"velocity", "v", "tension", "λ"});
 }
 
-std::vector<BenchPanel> tolerances_panels(const BenchRecord& record) {
-  BenchPanel panel{"seconds", "error over tolerance"};
-  int colour = 0;
-  for (const std::string& scene : record.different("scene")) {
-    panel.curves.push_back(curve_of(record, gnuplot_literal(scene),
-                                    {"seconds", "error_over_tolerance", "scene", scene, "tolerance"}, colour++));
-  }
-  return {panel};
-}
-
 struct Maker {
   const char* bench;
   std::vector<BenchPanel> (*panels)(const BenchRecord& record);
 };
-constexpr std::array makers = {Maker{"space", space_panels},           Maker{"time", time_panels},
-                               Maker{"parts", parts_panels},           Maker{"threads", threads_panels},
-                               Maker{"symmetry", symmetry_panels},     Maker{"methods", methods_panels},
-                               Maker{"tolerances", tolerances_panels}, Maker{"methods_from_shape", from_shape_panels}};
+constexpr std::array makers = {Maker{"space", space_panels},
+                               Maker{"time", time_panels},
+                               Maker{"parts", parts_panels},
+                               Maker{"threads", threads_panels},
+                               Maker{"symmetry", symmetry_panels},
+                               Maker{"methods", methods_panels},
+                               Maker{"methods_from_shape", from_shape_panels}};
 
 }  // namespace
 
