@@ -12,7 +12,6 @@
 #include "bie/scene/output_units.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/schema.hpp"
-#include "bie/scene/units.hpp"
 #include "bie/support/errors.hpp"
 
 namespace vehd {
@@ -35,7 +34,8 @@ void read_abscissa(Experiment& experiment, const DataTable& table) {
 }
 
 /// Standard deviations in SI base units, one for each row.
-std::vector<double> deviations_in(const Experiment& experiment, const DataTable& table, const std::string& given) {
+std::vector<double> deviations_in(const Experiment& experiment, const DataTable& table,
+                                  const std::optional<Quantity>& given) {
   const Measured& measured = experiment.measured;
   std::vector<double> deviations(table.n_rows());
   if (const auto column = table.find(deviation_column)) {
@@ -48,15 +48,14 @@ std::vector<double> deviations_in(const Experiment& experiment, const DataTable&
     }
     return deviations;
   }
-  const auto quantity = parse_quantity(given);
-  if (!quantity) {
+  if (!given) {
     throw InputError(
         fmt::format("{}: has no column \"{}\", and the experiment no \"deviation\"; accepted: the standard "
                     "deviation of the data in either",
                     table.header_place(), deviation_column));
   }
-  std::ranges::fill(deviations, quantity->number * unit_factor(experiment.scene, measured.dimension, quantity->unit,
-                                                               table.header_place()));
+  std::ranges::fill(
+      deviations, given->number * unit_factor(experiment.scene, measured.dimension, given->unit, table.header_place()));
   return deviations;
 }
 
@@ -119,7 +118,7 @@ std::vector<DataOfRun> runs_of(const Measured& measured, const std::vector<Datum
 }
 
 void read_data(Experiment& experiment, const DataTable& table, const std::string& quantity, const std::string& place,
-               const std::string& deviation) {
+               const std::optional<Quantity>& deviation) {
   Measured& measured = experiment.measured;
   measured.quantity = quantity;
   measured.dimension = dimension_of(experiment.scene, quantity, place);

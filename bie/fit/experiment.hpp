@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bie/fit/data_table.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/scene/settings.hpp"
+#include "bie/scene/units.hpp"
 
 namespace vehd {
 
@@ -76,10 +78,10 @@ std::vector<DataOfRun> runs_of(const Measured& measured, const std::vector<Datum
 
 /// Fills in the measured quantity, the data and the runs from a table.
 /// @param quantity   measured quantity; `place` is its "file:line" for messages
-/// @param deviation  of every datum, "2 mV", if the file has no column of deviations; empty: none is given
+/// @param deviation  of every datum, if the file has no column of deviations
 /// @throws InputError "file:line: ..."
 void read_data(Experiment& experiment, const DataTable& table, const std::string& quantity, const std::string& place,
-               const std::string& deviation);
+               const std::optional<Quantity>& deviation);
 
 /// The largest tolerance of a run.
 constexpr double loosest_tolerance = 1e-2;

@@ -109,11 +109,12 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_fit_name_their_line) {
   const Folder folder;
   BOOST_TEST(folder.refusal("[free]\n") ==
              "fit.toml:1: no table [[experiment]]; accepted: one or more, with scene, data and quantity");
-  BOOST_TEST(folder.refusal(experiment) == "fit.toml:1: no table [free]; accepted: \"table.key\" = {from, to, scale}");
+  BOOST_TEST(folder.refusal(experiment) ==
+             "fit.toml:1: missing table [free]; accepted: \"table.key\" = {from, to, scale}");
   BOOST_TEST(folder.refusal(experiment + "deviations = 1\n") ==
              "fit.toml:5: unknown key \"deviations\" in [[experiment]]; did you mean \"deviation\"?");
   BOOST_TEST(folder.refusal("[[experiment]]\nscene = \"none.toml\"\ndata = \"data.csv\"\n") ==
-             "fit.toml:2: \"scene\" is the text 'none.toml': no such file");
+             "fit.toml:2: \"scene\" in [[experiment]] is the text 'none.toml': no such file");
   BOOST_TEST(folder.refusal("[[experiment]]\nscene = \"scene.toml\"\ndata = \"data.csv\"\nquantity = \"extent_q\"\n")
                  .starts_with("fit.toml:4: \"quantity\" is \"extent_q\", which history.csv of the scene has not"));
   BOOST_TEST(folder.refusal(experiment + experiment)
@@ -132,6 +133,10 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_fit_name_their_line) {
       refusal_of("\"shape.kind\" = {from = 1, to = 2}\n").starts_with("fit.toml:6: \"shape.kind\" in [free] is "));
   BOOST_TEST(refusal_of("\"membrane.bending_modulus\" = {from = \"1 V\", to = \"2 V\"}\n")
                  .starts_with("fit.toml:6: --set membrane.bending_modulus="));
+  BOOST_TEST(refusal_of("membrane.bending_modulus = 1\n") ==
+             "fit.toml:6: \"membrane.bending_modulus\" in [free] is 1; accepted: {from, to, scale}");
+  BOOST_TEST(refusal_of("\"membrane.bending_modulus\" = {from = 1}\n") ==
+             "fit.toml:6: missing key \"to\" in \"membrane.bending_modulus\" in [free]; accepted: a number");
   BOOST_TEST(refusal_of("\"membrane.bending_modulus\" = {from = 1, till = 2}\n") ==
              "fit.toml:6: unknown key \"till\" in \"membrane.bending_modulus\" in [free]; accepted: from, to, scale");
 }

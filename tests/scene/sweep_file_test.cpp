@@ -99,18 +99,22 @@ BOOST_FIXTURE_TEST_CASE(mistakes_are_said_with_line_and_nearest_name, SweepFolde
   const std::string start = "scene = \"base.toml\"\n[vary]\n";
   BOOST_TEST(refusal("scene = \"base.toml\"\n[vari]\n")
                  .starts_with(":2: unknown table \"vari\" in a sweep; did you mean \"vary\"?"));
-  BOOST_TEST(refusal("[vary]\n") == ":1: missing key \"scene\"; accepted: path of a scene");
-  BOOST_TEST(refusal("scene = \"bass.toml\"\n[vary]\n") == ":1: \"scene\" is the text 'bass.toml': no such file");
+  BOOST_TEST(refusal("[vary]\n") == ":1: missing key \"scene\" in a sweep; accepted: path of a scene");
+  BOOST_TEST(refusal("scene = \"bass.toml\"\n[vary]\n") ==
+             ":1: \"scene\" in a sweep is the text 'bass.toml': no such file");
   BOOST_TEST(refusal("scene = \"base.toml\"\n").starts_with(":1: missing table [vary]"));
   BOOST_TEST(refusal(start + "\"numerics.ddt\" = {values = [1]}\n") ==
              ":3: unknown key \"ddt\" of [numerics] in [vary]; did you mean \"dt\"?");
   BOOST_TEST(refusal(start + "\"dt\" = {values = [1]}\n")
                  .starts_with(":3: \"dt\" in [vary] is no \"table.key\" of a scene; did you mean \""));
   BOOST_TEST(refusal(start + "\"numerics.dt\" = 0.5\n").starts_with(":3: \"numerics.dt\" in [vary] is 0.5"));
+  BOOST_TEST(refusal(start + "numerics.dt = 0.5\n").starts_with(":3: \"numerics.dt\" in [vary] is 0.5"));
+  BOOST_TEST(refusal(start + "\"numerics.dt\" = {from = 0.1, count = 3}\n") ==
+             ":3: missing key \"to\" in \"numerics.dt\" in [vary]; accepted: a number, or values = [...]");
   BOOST_TEST(
       refusal(start + "\"numerics.dt\" = {values = []}\n").starts_with(":3: \"numerics.dt\" in [vary] has no list"));
   BOOST_TEST(refusal(start + "\"numerics.dt\" = {valuse = [1]}\n")
-                 .starts_with(":3: \"numerics.dt\" in [vary] has an unknown \"valuse\"; did you mean \"values\"?"));
+                 .starts_with(":3: unknown key \"valuse\" in \"numerics.dt\" in [vary]; did you mean \"values\"?"));
   BOOST_TEST(
       refusal(start + "\"numerics.dt\" = {values = [0.5,\n  -1.0]}\n").starts_with(":4: \"dt\" in [numerics] is -1"));
   BOOST_TEST(refusal(start + "\"numerics.dt\" = {values = [\"fast\"]}\n").starts_with(":3: \"dt\" in [numerics]"));
@@ -120,12 +124,13 @@ BOOST_FIXTURE_TEST_CASE(mistakes_are_said_with_line_and_nearest_name, SweepFolde
                  .starts_with(":3: \"numerics.dt\" in [vary] goes by equal factors"));
   BOOST_TEST(refusal(start + "\"numerics.degree\" = {from = 6, to = 11, count = 3}\n")
                  .starts_with(":3: \"numerics.degree\" in [vary] is a whole number and would become 8.5"));
-  BOOST_TEST(refusal(start + "\"numerics.dt\" = {from = 0.1, to = 1.0, count = 3, scale = \"cubic\"}\n")
-                 .ends_with("has scale = the text 'cubic'; accepted: \"linear\", \"log\""));
+  BOOST_TEST(
+      refusal(start + "\"numerics.dt\" = {from = 0.1, to = 1.0, count = 3, scale = \"cubic\"}\n")
+          .ends_with("\"scale\" in \"numerics.dt\" in [vary] is the text 'cubic'; accepted: \"linear\", \"log\""));
   BOOST_TEST(refusal(start + "\"numerics.dt\" = {values = [0.5, 0.50]}\n")
                  .ends_with("has 0.5 twice; accepted: different values"));
   BOOST_TEST(refusal("mode = \"gird\"\nscene = \"base.toml\"\n[vary]\n\"numerics.dt\" = {values = [0.5]}\n") ==
-             ":1: \"mode\" is the text 'gird'; accepted: \"grid\", \"zip\"");
+             ":1: \"mode\" in a sweep is the text 'gird'; accepted: \"grid\", \"zip\"");
   BOOST_TEST(refusal(start + "\"numerics.dt\" = {from = 0.1, to = 1.0, count = 1000000000}\n").find("count") !=
              std::string::npos);
 }

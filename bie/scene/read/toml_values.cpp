@@ -12,7 +12,6 @@
 #include "bie/scene/nearest_name.hpp"
 #include "bie/scene/read/reading_steps.hpp"
 #include "bie/scene/settings.hpp"
-#include "bie/scene/units.hpp"
 
 namespace vehd {
 namespace {
@@ -214,6 +213,24 @@ void require_short_keys(const std::string& text, const std::string& name) {
   }
 }
 
+void visit_keys(const NamedTable& part, const std::string& prefix, std::string_view accepted,
+                const std::function<void(const std::string&, const NamedTable&)>& visit) {
+  for (const auto& [word, node] : part.entries) {
+    const std::string key = prefix + std::string(word.str());
+    const std::string name = fmt::format("\"{}\" in {}", key, part.name);
+    const toml::table* table = node.as_table();
+    if (table == nullptr) part.file.refuse(node, "{} is {}; accepted: {}", name, shown(node), accepted);
+    const bool is_group = !key_names(key).empty() || std::all_of(table->begin(), table->end(), [](const auto& entry) {
+      return entry.second.is_table();
+    });
+    if (is_group && !table->empty()) {
+      visit_keys({part.file, *table, part.name}, key + '.', accepted, visit);
+    } else {
+      visit(key, {part.file, *table, name});
+    }
+  }
+}
+
 }  // namespace
 
 std::string text_of_toml_file(const std::filesystem::path& path, std::string_view what) {
@@ -254,6 +271,65 @@ const toml::node& TomlFile::node_of(std::string_view dotted, std::string_view ke
   const auto owner = table.at_path(dotted);
   const auto node = owner[key];
   return node ? *node.node() : *owner.node();
+}
+
+void NamedTable::refuse_value(std::string_view key, std::string_view rest) const {
+  const toml::node& node = *entries.get(key);
+  file.refuse(node, "\"{}\" in {} is {}{}", key, name, shown(node), rest);
+}
+
+void NamedTable::require_words(const std::vector<std::string_view>& words) const {
+  for (const auto& [word, node] : entries) {
+    if (std::ranges::find(words, word.str()) != words.end()) continue;
+    file.refuse(node, "unknown {} \"{}\" in {}; {}", node.is_table() ? "table" : "key", word.str(), name,
+                suggestion(word.str(), words));
+  }
+}
+
+const toml::node& NamedTable::at(std::string_view key, std::string_view accepted) const {
+  const toml::node* node = entries.get(key);
+  if (node == nullptr) file.refuse(entries, "missing key \"{}\" in {}; accepted: {}", key, name, accepted);
+  return *node;
+}
+
+std::string NamedTable::text(std::string_view key, std::string_view accepted) const {
+  const std::string text = at(key, accepted).value<std::string>().value_or("");
+  if (text.empty()) refuse_value(key, fmt::format("; accepted: {}", accepted));
+  return text;
+}
+
+std::filesystem::path NamedTable::path(std::string_view key, std::string_view accepted,
+                                       const std::filesystem::path& folder) const {
+  std::filesystem::path path = (folder / text(key, accepted)).lexically_normal();
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) refuse_value(key, ": no such file");
+  return path;
+}
+
+Quantity NamedTable::quantity(std::string_view key, std::string_view accepted) const {
+  const toml::node& node = at(key, accepted);
+  const auto number = number_of(node);
+  const auto quantity = parse_quantity(number ? fmt::format("{}", *number) : node.value<std::string>().value_or(""));
+  if (!quantity) refuse_value(key, fmt::format("; accepted: {}", accepted));
+  return *quantity;
+}
+
+std::string NamedTable::word(std::string_view key, const std::vector<std::string_view>& words) const {
+  const toml::node* node = entries.get(key);
+  const auto word = node != nullptr ? node->value<std::string>().value_or("") : std::string(words.front());
+  if (std::ranges::find(words, word) == words.end()) {
+    refuse_value(key, fmt::format("; accepted: \"{}\"", fmt::join(words, "\", \"")));
+  }
+  return word;
+}
+
+void for_each_key(const TomlFile& file, const std::string& table, std::string_view accepted,
+                  const std::function<void(const std::string&, const NamedTable&)>& visit) {
+  const toml::table* keys = file.find(table);
+  if (keys == nullptr || keys->empty()) {
+    throw InputError(fmt::format("{}:1: missing table [{}]; accepted: \"table.key\" = {}", file.name, table, accepted));
+  }
+  visit_keys({file, *keys, fmt::format("[{}]", table)}, "", accepted, visit);
 }
 
 std::optional<double> number_of(const toml::node& node) {

@@ -4,11 +4,14 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bie/scene/schema.hpp"
+#include "bie/scene/units.hpp"
 #include "bie/support/errors.hpp"
 
 /// TOML files, and the conversion of their nodes to values of the key table.
@@ -46,6 +49,41 @@ struct TomlFile {
     refuse(node_of(dotted, key), problem, std::forward<Arguments>(arguments)...);
   }
 };
+
+/// A table of a file and what messages call it, such as "[[experiment]]". Its functions throw InputError
+/// "file:line: problem"; `accepted` says there what a value may be.
+struct NamedTable {
+  const TomlFile& file;
+  const toml::table& entries;
+  std::string name;
+
+  /// Throws "file:line: name problem".
+  template <typename... Arguments>
+  [[noreturn]] void refuse(const toml::node& node, fmt::format_string<Arguments...> problem,
+                           Arguments&&... arguments) const {
+    file.refuse(node, "{} {}", name, fmt::format(problem, std::forward<Arguments>(arguments)...));
+  }
+  /// Throws with the value of a key; `rest` follows it in the message.
+  [[noreturn]] void refuse_value(std::string_view key, std::string_view rest) const;
+  void require_words(const std::vector<std::string_view>& words) const;
+  /// Value of a key that must be present.
+  [[nodiscard]] const toml::node& at(std::string_view key, std::string_view accepted) const;
+  /// A text that is not empty.
+  [[nodiscard]] std::string text(std::string_view key, std::string_view accepted) const;
+  /// Path of a file that exists, relative to a folder.
+  [[nodiscard]] std::filesystem::path path(std::string_view key, std::string_view accepted,
+                                           const std::filesystem::path& folder) const;
+  /// A number, or one with a unit.
+  [[nodiscard]] Quantity quantity(std::string_view key, std::string_view accepted) const;
+  /// One of these words, the first if the key is absent.
+  [[nodiscard]] std::string word(std::string_view key, const std::vector<std::string_view>& words) const;
+};
+
+/// Visits the keys of a scene that a table lists with a table for each. They may also be written without quotes, as
+/// nested tables: flow.rate = {...}.
+/// @throws InputError if there are none, or if one has no table
+void for_each_key(const TomlFile& file, const std::string& table, std::string_view accepted,
+                  const std::function<void(const std::string& key, const NamedTable& values)>& visit);
 
 /// @param name  stands for the file in messages
 /// @throws InputError "name:line: ..."
