@@ -1,19 +1,19 @@
 #include <unistd.h>
 
 #include <cstring>
-#include <iterator>
 
 #include "bie/support/processor/features.hpp"
+
+// No template of the standard library is instantiated here: the linker may take the function from an object that was
+// compiled for another processor.
 
 #ifdef __x86_64__
 
 namespace {
 
-using vehd::processor::built_for;
-
 void say(const char* text) { [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
-/// An extension that `built_for` may name, and whether this processor has it.
+/// A line of features.def, and whether this processor has the extension.
 struct Feature {
   const char* name;
   bool present;
@@ -28,48 +28,23 @@ const char* file_name(const char* path) {
 void refuse_a_processor_that_lacks_something(int argc, char** argv, char** /*environment*/) {
   __builtin_cpu_init();
   const Feature features[] = {
-      {"sse3", __builtin_cpu_supports("sse3") != 0},
-      {"ssse3", __builtin_cpu_supports("ssse3") != 0},
-      {"sse4.1", __builtin_cpu_supports("sse4.1") != 0},
-      {"sse4.2", __builtin_cpu_supports("sse4.2") != 0},
-      {"popcnt", __builtin_cpu_supports("popcnt") != 0},
-      {"avx", __builtin_cpu_supports("avx") != 0},
-      {"avx2", __builtin_cpu_supports("avx2") != 0},
-      {"fma", __builtin_cpu_supports("fma") != 0},
-      {"fma4", __builtin_cpu_supports("fma4") != 0},
-      {"xop", __builtin_cpu_supports("xop") != 0},
-      {"bmi", __builtin_cpu_supports("bmi") != 0},
-      {"bmi2", __builtin_cpu_supports("bmi2") != 0},
-      {"aes", __builtin_cpu_supports("aes") != 0},
-      {"pclmul", __builtin_cpu_supports("pclmul") != 0},
-      {"gfni", __builtin_cpu_supports("gfni") != 0},
-      {"vpclmulqdq", __builtin_cpu_supports("vpclmulqdq") != 0},
-      {"avx512f", __builtin_cpu_supports("avx512f") != 0},
-      {"avx512cd", __builtin_cpu_supports("avx512cd") != 0},
-      {"avx512vl", __builtin_cpu_supports("avx512vl") != 0},
-      {"avx512bw", __builtin_cpu_supports("avx512bw") != 0},
-      {"avx512dq", __builtin_cpu_supports("avx512dq") != 0},
-      {"avx512ifma", __builtin_cpu_supports("avx512ifma") != 0},
-      {"avx512vbmi", __builtin_cpu_supports("avx512vbmi") != 0},
-      {"avx512vbmi2", __builtin_cpu_supports("avx512vbmi2") != 0},
-      {"avx512vnni", __builtin_cpu_supports("avx512vnni") != 0},
-      {"avx512bitalg", __builtin_cpu_supports("avx512bitalg") != 0},
-      {"avx512vpopcntdq", __builtin_cpu_supports("avx512vpopcntdq") != 0},
-      {"avx512bf16", __builtin_cpu_supports("avx512bf16") != 0},
+#define FEATURE(name, macro) {name, __builtin_cpu_supports(name) != 0},
+#include "bie/support/processor/features.def"
   };
-  const char* present[std::size(features) + 1] = {};
-  std::size_t count = 0;
+  bool complete = true;
+  const bool* needed = vehd::processor::built_for;
   for (const Feature& feature : features) {
-    if (feature.present) present[count++] = feature.name;
+    if (!*needed++ || feature.present) continue;
+    if (complete) {
+      say(argc > 0 ? file_name(argv[0]) : "vehd");
+      say(": this program was built for a processor with ");
+    } else {
+      say(", ");
+    }
+    say(feature.name);
+    complete = false;
   }
-  const char* missing[std::size(features) + 1] = {};
-  if (vehd::processor::find_missing(built_for, present, missing) == 0) return;
-  say(argc > 0 ? file_name(argv[0]) : "vehd");
-  say(": this program was built for a processor with ");
-  for (const char** name = missing; *name != nullptr; ++name) {
-    if (name != missing) say(", ");
-    say(*name);
-  }
+  if (complete) return;
   say(", which this one lacks; build it on this machine, or for others as well (docs/building.md)\n");
   ::_exit(1);
 }
