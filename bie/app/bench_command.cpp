@@ -57,7 +57,7 @@ struct BenchOptions {
 };
 
 struct SceneOptions {
-  SceneChoice scene;
+  SceneSource scene;
   std::vector<int> orders, threads, time_orders;
   std::vector<std::string> steps;
   std::vector<double> tolerances;
@@ -69,9 +69,9 @@ struct SceneOptions {
   BenchOptions bench;
 };
 
-Scene scene_of_one(const SceneChoice& choice) {
-  Scene scene = read_scene(choice.source);
-  require_one_vesicle(scene, choice.source.file, "vehd bench");
+Scene scene_of_one(const SceneSource& source) {
+  Scene scene = read_scene(source);
+  require_one_vesicle(scene, source.file, "vehd bench");
   return scene;
 }
 
@@ -110,7 +110,7 @@ void add_bench(CLI::App& command, const std::shared_ptr<SceneOptions>& options, 
     // Before anything is measured, so that a directory that cannot be written is reported at once.
     make_directory(options->bench.directory);
     BenchResult result = measure(*options, printer);
-    if (!options->scene.source.file.empty()) result.facts["scene"] = options->scene.text();
+    if (!options->scene.file.empty()) result.facts["scene"] = text_of(options->scene);
     write_json(options->bench.common, write_bench(result, options->bench.output(), printer));
     exit_code = ExitCode::done;
   });
@@ -160,7 +160,7 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
       ->check(time_text());
   add_repeats(*command, options->bench, 1);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
-    Scene scene = read_scene(o.scene.source);
+    Scene scene = read_scene(o.scene);
     if (o.order > 0) scene.numerics.order = o.order;
     std::vector<double> steps;
     for (const std::string& step : o.steps) steps.push_back(positive_time("--dt", step, scene));
@@ -209,7 +209,7 @@ void add_threads(CLI::App& bench, ExitCode& exit_code) {
       ->check(CLI::Range(1, highest_time_order));
   add_repeats(*command, options->bench, 5);
   add_bench(*command, options, exit_code, [](const SceneOptions& o, BenchObserver& observer) {
-    Scene scene = read_scene(o.scene.source);
+    Scene scene = read_scene(o.scene);
     if (o.order > 0) scene.numerics.order = o.order;
     if (o.time_order > 0) scene.numerics.time_order = o.time_order;
     return bench_threads(scene, o.threads, o.bench.repeats, observer);

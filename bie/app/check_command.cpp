@@ -14,7 +14,7 @@ namespace vehd {
 namespace {
 
 struct CheckOptions {
-  SceneChoice scene;  ///< or a run.h5
+  SceneSource scene;  ///< or a run.h5
   std::optional<std::string> time, from;
   std::string directory;
   bool quick = false;
@@ -26,7 +26,7 @@ struct CheckOptions {
 
 std::filesystem::path directory_of(const CheckOptions& options) {
   if (!options.directory.empty()) return options.directory;
-  const std::filesystem::path& file = options.scene.source.file;
+  const std::filesystem::path& file = options.scene.file;
   if (file.extension() == ".toml") return default_directory(file) += "_check";
   return file.parent_path() / "check";
 }
@@ -48,13 +48,13 @@ void print_solved(const CheckFields& fields, bool first) {
 
 ExitCode check(const CheckOptions& options) {
   const FemProgram fem;
-  CheckTask task{.frozen = read_frozen_state(options.scene.source, options.time),
+  CheckTask task{.frozen = read_frozen_state(options.scene, options.time),
                  .directory = directory_of(options),
                  .quick = options.quick,
                  .required = options.required,
                  .n_ranks = options.ranks};
   for (const std::string& note : task.frozen.notes) fmt::print(stderr, "{}\n", note);
-  if (options.from) task.span = read_time_span(options.scene.source.file, *options.from, task.frozen);
+  if (options.from) task.span = read_time_span(options.scene.file, *options.from, task.frozen);
   task.on_solved = [first = true](const CheckFields& fields) mutable {
     print_solved(fields, std::exchange(first, false));
   };
@@ -70,7 +70,7 @@ ExitCode check(const CheckOptions& options) {
 void add_check_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("check", "Compare the fields of a frozen shape with finite elements");
   const auto options = std::make_shared<CheckOptions>();
-  add_frozen_state(*command, options->scene.source.file);
+  add_frozen_state(*command, options->scene.file);
   add_settings(*command, options->scene);
   add_snapshot_time(*command, options->time);
   command

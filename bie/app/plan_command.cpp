@@ -17,7 +17,7 @@ namespace vehd {
 namespace {
 
 struct PlanOptions {
-  SceneChoice scene;
+  SceneSource scene;
   bool costs = false;
   CommonOptions common;
 };
@@ -124,7 +124,7 @@ void print(const RunPlan& plan) {
 
 /// Reports a scene whose steps cannot be taken.
 ExitCode does_not_hold(const PlanOptions& options, const std::string& what) {
-  fmt::print(stderr, "{}: cannot be stepped{}\n", options.scene.source.file.string(), what);
+  fmt::print(stderr, "{}: cannot be stepped{}\n", options.scene.file.string(), what);
   return ExitCode::does_not_hold;
 }
 
@@ -157,7 +157,7 @@ ExitCode print_costs(const PlanOptions& options, const Scene& scene) {
 }
 
 ExitCode plan(const PlanOptions& options) {
-  const Scene scene = read_scene(options.scene.source);
+  const Scene scene = read_scene(options.scene);
   if (options.costs) return print_costs(options, scene);
   RunPlan result = plan_of(scene);
   predict_cost(scene, result);

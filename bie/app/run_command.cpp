@@ -16,7 +16,7 @@ namespace vehd {
 namespace {
 
 struct RunOptions {
-  SceneChoice scene;
+  SceneSource scene;
   std::string directory;
   std::string from;
   bool resume = false;
@@ -27,17 +27,16 @@ struct RunOptions {
 };
 
 std::filesystem::path directory_of(const RunOptions& options) {
-  return options.directory.empty() ? default_directory(options.scene.source.file)
-                                   : std::filesystem::path(options.directory);
+  return options.directory.empty() ? default_directory(options.scene.file) : std::filesystem::path(options.directory);
 }
 
 /// Advice for a run that has stopped.
 std::string next_step(const RunOptions& options, const Scene& scene, const RunOutcome& outcome) {
   const std::string command =
-      fmt::format("vehd run {} -o {} --resume", options.scene.text(), shell_word(directory_of(options).string()));
+      fmt::format("vehd run {} -o {} --resume", text_of(options.scene), shell_word(directory_of(options).string()));
   if (!outcome.cannot_step) return "continue with: " + command;
   return fmt::format("unchanged it would stop there again: {} of {}, then continue with: {}",
-                     advice_after_failure(scene.numerics), options.scene.source.file.string(), command);
+                     advice_after_failure(scene.numerics), options.scene.file.string(), command);
 }
 
 void print_summary(const nlohmann::json& summary, const RunPaths& paths) {
@@ -81,7 +80,7 @@ ExitCode run(const RunOptions& options, const Ranks& ranks) {
   // Before anything runs in parallel, as threads inherit the signals that they block.
   std::optional<Interruption> interruption(std::in_place);
   const std::filesystem::path directory = directory_of(options);
-  SceneSource source = options.scene.source;
+  SceneSource source = options.scene;
   if (options.resume || !options.from.empty()) {
     source = in_scales_of(std::move(source), {options.from.empty() ? directory : std::filesystem::path(options.from)});
   }
@@ -96,9 +95,9 @@ ExitCode run(const RunOptions& options, const Ranks& ranks) {
   for (const SceneChange& change : session.changes()) fmt::print("changed at {}\n", text_of(change));
   Progress progress(options.quiet || !ranks.is_first() ? Progress::Style::none : Progress::suitable_style());
   const auto show = [&progress](const RunStatus& status) { show_run(progress, status); };
-  const std::chrono::duration<double> checkpoint_lag(options.checkpoint_every);
-  const RunOutcome outcome =
-      session.simulate(*interruption, show, std::chrono::duration_cast<std::chrono::milliseconds>(checkpoint_lag));
+  const auto checkpoint_lag =
+      std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::duration<double>(options.checkpoint_every));
+  const RunOutcome outcome = simulate(session.task(show, checkpoint_lag), *interruption);
   progress.finish();
   interruption.reset();
   if (!ranks.is_first()) return outcome.completed ? ExitCode::done : ExitCode::stopped_early;

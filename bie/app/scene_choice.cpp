@@ -27,20 +27,20 @@ std::string shell_word(const std::string& word) {
   return text + "'";
 }
 
-std::string SceneChoice::text() const {
-  std::string text = shell_word(source.file.string());
-  for (const std::string& setting : source.settings) text += fmt::format(" --set {}", shell_word(setting));
+std::string text_of(const SceneSource& scene) {
+  std::string text = shell_word(scene.file.string());
+  for (const std::string& setting : scene.settings) text += fmt::format(" --set {}", shell_word(setting));
   return text;
 }
 
-void add_scene_choice(CLI::App& command, SceneChoice& scene) {
-  command.add_option("SCENE", scene.source.file, "Scene file (TOML)")->required();
+void add_scene_choice(CLI::App& command, SceneSource& scene) {
+  command.add_option("SCENE", scene.file, "Scene file (TOML)")->required();
   add_settings(command, scene);
 }
 
-void add_settings(CLI::App& command, SceneChoice& scene) {
+void add_settings(CLI::App& command, SceneSource& scene) {
   command
-      .add_option("--set", scene.source.settings,
+      .add_option("--set", scene.settings,
                   "Another value for a key of the scene, as in --set flow.rate=2.5; any number of times")
       ->type_name("TABLE.KEY=VALUE")
       ->allow_extra_args(false);

@@ -13,18 +13,13 @@ namespace vehd {
 /// A text quoted as one word of a shell.
 std::string shell_word(const std::string& word);
 
-/// A scene given on a command line.
-struct SceneChoice {
-  SceneSource source;
-
-  /// The corresponding part of a command line, quoted for a shell.
-  [[nodiscard]] std::string text() const;
-};
+/// The part of a command line that names this scene, quoted for a shell.
+std::string text_of(const SceneSource& scene);
 
 /// Adds SCENE and --set.
-void add_scene_choice(CLI::App& command, SceneChoice& scene);
+void add_scene_choice(CLI::App& command, SceneSource& scene);
 /// Adds --set only.
-void add_settings(CLI::App& command, SceneChoice& scene);
+void add_settings(CLI::App& command, SceneSource& scene);
 
 /// Adds FILE, whose fields or shape are examined: a scene, a run.h5, or the directory of a run in place of its run.h5.
 void add_frozen_state(CLI::App& command, std::filesystem::path& file);

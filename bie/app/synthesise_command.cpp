@@ -15,7 +15,7 @@ namespace {
 
 struct SynthesiseOptions {
   Synthesis synthesis;
-  SceneChoice scene;
+  SceneSource scene;
   std::string vary;
   std::filesystem::path output;
   WorkerOptions workers;
@@ -41,7 +41,7 @@ void read_varied(Synthesis& synthesis, const std::string& text) {
 ExitCode synthesise(const SynthesiseOptions& options) {
   const ThreadCount one(1);
   Synthesis synthesis = options.synthesis;
-  synthesis.source = options.scene.source;
+  synthesis.source = options.scene;
   read_varied(synthesis, options.vary);
   const Experiment experiment = experiment_of(synthesis);
   if (options.output.has_parent_path()) make_directory(options.output.parent_path());

@@ -66,7 +66,7 @@ BenchResult bench_scenes(const std::vector<std::filesystem::path>& scenes, const
     Interruption interruption;
     const auto start = std::chrono::steady_clock::now();
     const RunOutcome outcome =
-        simulate({scene, paths, std::nullopt, on_status, {}, {}, longest_lag_of_files}, interruption);
+        simulate({scene, paths, std::nullopt, on_status, {}, longest_lag_of_files}, interruption);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (interruption.requested()) throw Interrupted("stopped by a signal at " + file.string());
     if (!outcome.completed) throw ConvergenceError(fmt::format("{}: {}", file.string(), outcome.reason));

@@ -69,8 +69,7 @@ RecordedRun::RecordedRun(const RunTask& task)
       error_bars_(error_bars_of(task)),
       ranks_(task.ranks),
       is_recorded_(start_of(task).n_rows > 0),
-      on_status_(task.on_status),
-      after_step_(task.after_step) {
+      on_status_(task.on_status) {
   // Other ranks may still be reading files that the first rank is about to change.
   ranks_.meet();
   ranks_.together([&] {
@@ -133,7 +132,6 @@ void RecordedRun::step() {
     throw;
   }
   record(errors.get());
-  if (after_step_) after_step_();
 }
 
 void RecordedRun::snapshot() {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -34,7 +33,6 @@ struct RunTask {
   const RunPaths& paths;
   const std::optional<Checkpoint>& checkpoint;  ///< absent: a new run; otherwise see `continued`
   OnStatus on_status{};                         ///< called when the start or a step is in the files
-  std::function<void()> after_step{};           ///< called when a step is in the files; may be empty
   Ranks ranks{};                                ///< ranks that run it together; the first one writes the files
   std::chrono::milliseconds checkpoint_lag{0};  ///< how far the checkpoint may lag behind the steps
 };
@@ -75,7 +73,6 @@ class RecordedRun {
   std::optional<RunRecorder> recorder_;  ///< on the first rank only
   bool is_recorded_;                     ///< whether the files have the state that the run starts from
   OnStatus on_status_;
-  std::function<void()> after_step_;
 };
 
 /// Simulates from the initial state or the checkpoint to the end of the scene. All files of the run are up to date at

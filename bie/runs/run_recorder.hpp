@@ -52,7 +52,6 @@ class RunRecorder {
   /// Brings every file up to date, including the work that the session has done since its last row.
   void end_session(const RunTotals& totals);
 
-  [[nodiscard]] std::int64_t n_rows() const { return last_.n_rows; }
   /// Marks the files as final.
   void finish() { snapshots_.finish(); }
 

@@ -57,13 +57,6 @@ std::vector<SceneChange> RunSession::changes() const {
   return {checkpoint_->changes.begin() + static_cast<std::ptrdiff_t>(n_changes_before_), checkpoint_->changes.end()};
 }
 
-RunOutcome RunSession::simulate(Interruption& interruption, OnStatus on_status,
-                                std::chrono::milliseconds checkpoint_lag) const {
-  RunTask in_one_go = task(std::move(on_status));
-  in_one_go.checkpoint_lag = checkpoint_lag;
-  return vehd::simulate(in_one_go, interruption);
-}
-
 nlohmann::json RunSession::summarise(const RunOutcome& outcome) const {
   const HistoryTable history(paths_.history());
   const Checkpoint checkpoint = read_checkpoint(paths_.checkpoint());

@@ -41,13 +41,9 @@ class RunSession {
   [[nodiscard]] std::vector<SceneChange> changes() const;
 
   /// The task of the session, which must outlive it.
-  [[nodiscard]] RunTask task(OnStatus on_status) const {
-    return {scene_, paths_, checkpoint_, std::move(on_status), {}, ranks_};
+  [[nodiscard]] RunTask task(OnStatus on_status, std::chrono::milliseconds checkpoint_lag = {}) const {
+    return {scene_, paths_, checkpoint_, std::move(on_status), ranks_, checkpoint_lag};
   }
-  /// Runs the session by `simulate`.
-  /// @param checkpoint_lag  see RunTask
-  RunOutcome simulate(Interruption& interruption, OnStatus on_status,
-                      std::chrono::milliseconds checkpoint_lag = longest_lag_of_files) const;
 
   /// Writes summary.json, on the first rank only. @return its content
   /// @throws InputError, OutputError if files of the run are missing or the disk is full

@@ -36,8 +36,8 @@ HistoryRow row_in_laboratory(const LabFrameOutput& laboratory, int order, const 
   return shown;
 }
 
-RunTotals WorkMeter::totals() const {
-  RunTotals totals = before_;
+RunTotals Simulation::totals() const {
+  RunTotals totals = from_.totals;
   totals.seconds += seconds();
   const auto add = [&](const std::map<std::string, std::uint64_t>& own, auto& sums) {
     for (const std::string& of_rank : ranks_.gather(packed(own))) {
@@ -59,7 +59,6 @@ Simulation::Simulation(const Scene& scene, Checkpoint from, OutputUnits units, R
       ranks_(std::move(ranks)),
       events_(events_of(scene)),
       evolution_(evolution_of_scene()),
-      meter_(from_.totals, instruments_, ranks_),
       start_time_(evolution_.state().time) {}
 
 int Simulation::start_order() const {
@@ -131,9 +130,8 @@ RunStatus Simulation::status() const {
   }
   const State& state = evolution_.state();
   const auto shown = [&](double time) { return time * time_unit_.factor; };
-  return {
-      state.step,       shown(start_time_), shown(state.time), shown(scene_.numerics.end_time), shown(last_.dt), drift,
-      meter_.seconds(), time_unit_.symbol,  gap_text()};
+  return {state.step, shown(start_time_), shown(state.time), shown(scene_.numerics.end_time), shown(last_.dt), drift,
+          seconds(),  time_unit_.symbol,  gap_text()};
 }
 
 /// Whether a scene that runs until rest may end now.

@@ -25,26 +25,6 @@ struct RecordedSide {
 /// @param order  degree of the results of `laboratory`
 HistoryRow row_in_laboratory(const LabFrameOutput& laboratory, int order, const RecordedSide& side);
 
-/// Work of this session added to that of earlier ones.
-class WorkMeter {
- public:
-  WorkMeter(RunTotals before, const Instruments& instruments, Ranks ranks)
-      : before_(std::move(before)), instruments_(instruments), ranks_(std::move(ranks)) {}
-
-  /// Seconds of this session.
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  /// Work of all sessions: kernels are summed over all ranks, seconds are those of this rank. Collective.
-  [[nodiscard]] RunTotals totals() const;
-
- private:
-  RunTotals before_;
-  const Instruments& instruments_;
-  Ranks ranks_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 /// A simulation of a scene in memory; the caller decides what is stored. Its steps are bit for bit those of a run of
 /// the scene.
 class Simulation {
@@ -74,8 +54,8 @@ class Simulation {
   [[nodiscard]] std::vector<RecordedSide> sides() const;
   /// Progress after the start or the last step.
   [[nodiscard]] RunStatus status() const;
-  /// Work of all sessions; collective.
-  [[nodiscard]] RunTotals totals() const { return meter_.totals(); }
+  /// Work of all sessions: kernels are summed over all ranks, seconds are those of this rank. Collective.
+  [[nodiscard]] RunTotals totals() const;
   /// Checkpoint from which a later session resumes; its numerics, end and snapshot times may differ from those of this
   /// one.
   [[nodiscard]] Checkpoint checkpoint() const;
@@ -92,6 +72,10 @@ class Simulation {
   [[nodiscard]] const OutputUnits& units() const { return units_; }
 
  private:
+  /// Seconds of this session.
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+  }
   [[nodiscard]] bool is_resumed() const { return !from_.state.vesicles.empty(); }
   [[nodiscard]] int start_order() const;
   Evolution evolution_of_scene();
@@ -109,7 +93,7 @@ class Simulation {
   Ranks ranks_;
   EventTimes events_;
   Evolution evolution_;
-  WorkMeter meter_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   StepAttempt last_;
   double start_time_;
 };

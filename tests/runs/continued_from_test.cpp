@@ -40,7 +40,7 @@ struct Runs {
     const vehd::RunSession session(vehd::read_scene(given), given, directory / name, resume, {}, false,
                                    from.empty() ? std::filesystem::path() : std::filesystem::path(directory / from));
     vehd::Interruption interruption;
-    return session.summarise(session.simulate(interruption, {}));
+    return session.summarise(vehd::simulate(session.task({}, vehd::longest_lag_of_files), interruption));
   }
   [[nodiscard]] std::string history(const std::string& name) const { return directory / (name + "/history.csv"); }
   [[nodiscard]] std::string refusal(const std::string& text, const std::string& from = "first") const {

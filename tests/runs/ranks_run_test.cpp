@@ -89,7 +89,7 @@ class Run {
         const vehd::SceneSource source{folder_ / "scene.toml", {}, scene};
         const vehd::RunSession session(vehd::read_scene(source), source, folder_ / "out", true, ranks);
         vehd::Interruption interruption;
-        const vehd::RunOutcome outcome = session.simulate(interruption, {});
+        const vehd::RunOutcome outcome = vehd::simulate(session.task({}, vehd::longest_lag_of_files), interruption);
         if (outcome.completed && ranks.is_first()) (void)session.summarise(outcome);
         return outcome.completed ? std::string("completed") : outcome.reason;
       });

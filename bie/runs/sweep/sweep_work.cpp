@@ -33,9 +33,10 @@ std::optional<RunResult> compute(const SweepTask& task, const SweepRun& run, Int
     const RunSession session(*run.scene, run.source, task.paths.run(run), true, {}, true);
     nlohmann::json summary = session.is_complete() ? session.last_summary() : nlohmann::json();
     if (!session.is_complete()) {
-      const RunOutcome outcome = session.simulate(interruption, [&board](const RunStatus& status) {
+      const auto show = [&board](const RunStatus& status) {
         board.share = status.end_time > 0.0 ? std::clamp(status.time / status.end_time, 0.0, 1.0) : 1.0;
-      });
+      };
+      const RunOutcome outcome = simulate(session.task(show, longest_lag_of_files), interruption);
       if (!outcome.completed && !outcome.cannot_step) {
         if (interruption.requested()) return std::nullopt;
         throw OutputError(outcome.reason);

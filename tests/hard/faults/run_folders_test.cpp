@@ -125,7 +125,8 @@ void resume(const RunFolder& folder, Findings& found) {
     found.add(session.last_summary().dump());
   } else {
     vehd::Interruption interruption;
-    nlohmann::json summary = session.summarise(session.simulate(interruption, {}));
+    nlohmann::json summary =
+        session.summarise(vehd::simulate(session.task({}, vehd::longest_lag_of_files), interruption));
     for (const char* key : {"seconds", "seconds_per_step", "seconds_of_parts", "peak_memory_bytes", "checksum"})
       summary.erase(key);
     found.add(summary.dump());
@@ -160,7 +161,7 @@ class Specimen {
     const vehd::RunSession session(vehd::read_scene(folder_.scene), folder_.scene, folder_.paths.directory, false);
     vehd::Interruption interruption;
     if (steps == 0) {
-      (void)session.summarise(session.simulate(interruption, {}));
+      (void)session.summarise(vehd::simulate(session.task({}, vehd::longest_lag_of_files), interruption));
     } else {
       vehd::RecordedRun run(session.task({}));
       run.start();

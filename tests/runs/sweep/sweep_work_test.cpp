@@ -94,7 +94,8 @@ BOOST_AUTO_TEST_CASE(a_worker_adds_a_result_to_what_a_run_writes_alone) {
       for (std::size_t i = 0; i < sweep.runs.size(); ++i) {
         const vehd::RunSession session(*sweep.runs[i].scene, {sweep.sweep.scene_file, {}},
                                        sweep.directory / ("alone" + std::to_string(i)), true);
-        static_cast<void>(session.summarise(session.simulate(interruption, {})));
+        static_cast<void>(
+            session.summarise(vehd::simulate(session.task({}, vehd::longest_lag_of_files), interruption)));
       }
     });
     BOOST_TEST(alone > 20 * n);
