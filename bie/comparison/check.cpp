@@ -1,9 +1,12 @@
 #include "bie/comparison/check.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -14,7 +17,6 @@
 #include "bie/sphere/harmonics.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
-#include "bie/support/processor_times.hpp"
 
 namespace vehd {
 namespace {
@@ -57,15 +59,26 @@ int estimate_order(int order, bool quick) {
   return std::min(raised, std::max(2 * highest_doubled_order, order + least_further_degrees));
 }
 
+int free_processors(const std::string& load, int processors, int most) {
+  double last_minute = 0.0, five_minutes = 0.0, fifteen_minutes = 0.0;
+  int running = 0;
+  if (!(std::istringstream(load) >> last_minute >> five_minutes >> fifteen_minutes >> running)) return most;
+  // The last minute includes what has ended, such as the run that is checked; the running threads, of which one is of
+  // this process, may be many only for a moment.
+  const double others = std::min(last_minute, running - 1.0);
+  return std::clamp(static_cast<int>(std::lround(processors - others)), 1, most);
+}
+
 namespace {
 
 /// Each rank without a processor of its own slows all others down, as they wait for it at every step of a solve.
-/// @param begin  start of the boundary integrals, during which the load by other programs is measured
-int n_ranks(const CheckTask& task, const ProcessorTimes& begin) {
+int n_ranks(const CheckTask& task) {
   // The coarse mesh has a few hundred cells: with more processes each would have too few.
   constexpr int most = 8;
   const int usable = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most);
-  return task.n_ranks ? *task.n_ranks : processors_left(begin, processor_times(), usable);
+  std::string load;
+  std::getline(std::ifstream("/proc/loadavg"), load);
+  return task.n_ranks.value_or(free_processors(load, static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN)), usable));
 }
 
 /// Runs the finite-element program, which solves the problem in the file and compares.
@@ -112,9 +125,8 @@ void solve_by_integrals(const CheckTask& task, const std::filesystem::path& inpu
 
 FemProgram::Result compare_methods(const FemProgram& fem, const CheckTask& task) {
   const std::filesystem::path input = task.directory / "check_input.h5";
-  const ProcessorTimes begin = processor_times();
   solve_by_integrals(task, input);
-  return run_elements(fem, task, input, n_ranks(task, begin));
+  return run_elements(fem, task, input, n_ranks(task));
 }
 
 FemProgram::Result write_volume_mesh(const FemProgram& fem, const MeshTask& task) {

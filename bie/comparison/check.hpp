@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "bie/comparison/check_fields.hpp"
 #include "bie/comparison/fem_program.hpp"
@@ -29,6 +30,13 @@ struct CheckTask {
 /// to degree 24, then 48 or 16 higher than `order`, whichever is higher.
 /// @param quick  one and a half times `order`, at most 28, but at least two higher
 int estimate_order(int order, bool quick);
+
+/// Processors that other programs leave, in a single-threaded moment of this one.
+/// @param load        text of /proc/loadavg; anything else counts as an idle machine
+/// @param processors  of the machine
+/// @param most        number that this process may use
+/// @return            1 to most
+int free_processors(const std::string& load, int processors, int most);
 
 /// Solves the frozen state by boundary integrals, lets the finite-element program solve and compare it, and waits.
 /// @throws InputError if the finite elements lack an effect of the state, OutputError if a file cannot be written

@@ -73,6 +73,22 @@ BOOST_AUTO_TEST_CASE(error_is_estimated_from_another_order_at_every_order) {
   BOOST_TEST(vehd::estimate_order(64, false) == 80);
 }
 
+BOOST_AUTO_TEST_CASE(processors_that_others_use_are_not_free) {
+  // Two processors: idle, after a run that has ended, in a busy moment, beside one and beside many other threads.
+  BOOST_TEST(vehd::free_processors("0.05 0.10 0.20 1/300 17\n", 2, 2) == 2);
+  BOOST_TEST(vehd::free_processors("2.30 1.10 0.20 1/300 17\n", 2, 2) == 2);
+  BOOST_TEST(vehd::free_processors("0.05 0.10 0.20 4/300 17\n", 2, 2) == 2);
+  BOOST_TEST(vehd::free_processors("1.20 0.10 0.20 2/300 17\n", 2, 2) == 1);
+  BOOST_TEST(vehd::free_processors("8.35 8.63 7.51 9/345 17\n", 2, 2) == 1);
+  // 64 processors, of which this process may use four or eight, or all.
+  BOOST_TEST(vehd::free_processors("61.0 60.0 60.0 61/900 17\n", 64, 8) == 4);
+  BOOST_TEST(vehd::free_processors("30.0 60.0 60.0 61/900 17\n", 64, 4) == 4);
+  BOOST_TEST(vehd::free_processors("42.4 60.0 60.0 61/900 17\n", 64, 64) == 22);
+  for (const char* unknown : {"", "0.05", "0.05 0.10 0.20", "none"}) {
+    BOOST_TEST(vehd::free_processors(unknown, 2, 2) == 2);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(order_of_the_run_gives_the_numbers_of_the_run) {
   for (const std::string& scene : {quick_scene(), scene_in_shear()}) {
     const Frozen frozen(scene);
