@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -138,20 +137,6 @@ std::vector<double> sizes_of_steps(std::vector<double> sizes) {
   return sizes;
 }
 
-/// Replaces the aspect ratio in files of earlier versions, which lack it: the longest over the shortest extent along x,
-/// y and z, under another label because the two differ for an inclined shape.
-std::optional<HistoryCurve> ratio_of_extents(const HistoryTable& history) {
-  constexpr std::array columns = {"extent_x", "extent_y", "extent_z"};
-  if (!std::ranges::all_of(columns, [&](const char* column) { return history.has(column); })) return std::nullopt;
-  HistoryCurve curve{"longest / shortest extent", {}};
-  for (std::size_t i = 0; i < history.n_rows(); ++i) {
-    const auto at = [&](const char* column) { return history.column(column)[i]; };
-    const auto [least, most] = std::minmax({at(columns[0]), at(columns[1]), at(columns[2])});
-    curve.values.push_back(most / least);
-  }
-  return curve;
-}
-
 /// Number of turning points after which a curve goes back by more than a hundredth of its range; less is rounding.
 std::size_t turns_of(const std::vector<double>& values) {
   const auto [least, most] = std::ranges::minmax(values);
@@ -204,11 +189,7 @@ std::vector<HistoryQuantity> history_quantities(const Scene& scene, const Histor
         found.curves.back().errors.resize(values.size(), std::numeric_limits<double>::quiet_NaN());
       }
     }
-    if (row.label == shown_quantity::aspect) {
-      choose_aspect_ratio(found.curves);
-      auto ratio = found.curves.empty() ? ratio_of_extents(history) : std::nullopt;
-      if (ratio) found.curves.push_back(std::move(*ratio));
-    }
+    if (row.label == shown_quantity::aspect) choose_aspect_ratio(found.curves);
     std::erase_if(found.curves, [](const HistoryCurve& curve) { return !has_numbers(curve.values); });
     if (!found.curves.empty()) quantities.push_back(std::move(found));
   }

@@ -20,7 +20,7 @@
 namespace vehd {
 namespace {
 
-constexpr std::int64_t schema_of_one = 13, schema_of_several = 14;
+constexpr std::int64_t schema_of_one = 15, schema_of_several = 16;
 
 std::int64_t schema_of(std::size_t n_vesicles) { return n_vesicles > 1 ? schema_of_several : schema_of_one; }
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -44,24 +43,6 @@ struct FileHeader {
   }
 };
 
-FileHeader header_in(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string line;
-  std::getline(file, line);
-  return FileHeader(line);
-}
-
-/// Number of columns of a file that has all of them, or those of an earlier vehd; otherwise nullopt.
-std::optional<std::size_t> columns_under(const FileHeader& header, HistoryKind kind) {
-  const std::vector<std::string>& cells = header.cells;
-  const std::vector<HistoryColumn>& known = history_columns(kind);
-  if (cells.size() > known.size() || cells.size() < first_columns(kind)) return std::nullopt;
-  const bool same = std::ranges::equal(
-      cells, std::span(known).first(cells.size()), {}, [](const std::string& cell) { return header_parts(cell).first; },
-      &HistoryColumn::name);
-  return same ? std::optional(cells.size()) : std::nullopt;
-}
-
 Checksum checksum_of(std::istream& stream, std::int64_t bytes) {
   Checksum checksum;
   std::string block(std::size_t{1} << 16, '\0');
@@ -91,18 +72,22 @@ void require_history(const std::filesystem::path& path, std::int64_t bytes, std:
 }
 
 void require_columns(const std::filesystem::path& path, HistoryKind kind) {
-  if (!columns_under(header_in(path), kind)) throw InputError(fmt::format("{}:1: has other columns", path.string()));
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  std::getline(file, line);
+  const FileHeader header(line);
+  const auto name_in = [](const std::string& cell) { return header_parts(cell).first; };
+  if (!header.is_sealed ||
+      !std::ranges::equal(header.cells, history_columns(kind), {}, name_in, &HistoryColumn::name)) {
+    throw InputError(fmt::format("{}:1: has other columns", path.string()));
+  }
 }
 
 HistoryFile::HistoryFile(const std::filesystem::path& path, std::int64_t kept_bytes, std::int64_t checksum,
                          const OutputUnits& units, HistoryKind kind)
     : path_(path), kind_(kind), checksum_(checksum) {
   for (const HistoryColumn& column : history_columns(kind)) factors_.push_back(units.of(column.dimension).factor);
-  if (kept_bytes > 0) {
-    const FileHeader header = header_in(path);
-    is_sealed_ = header.is_sealed;
-    if (const auto n_columns = columns_under(header, kind)) factors_.resize(*n_columns);
-  } else {
+  if (kept_bytes == 0) {
     stream_.open(path, std::ios::binary | std::ios::trunc);
     write(header_line(units, kind));
     return;
@@ -128,7 +113,6 @@ void HistoryFile::append(const Vector& values) {
   for (std::size_t i = 0; i < factors_.size(); ++i) {
     cells.push_back(fmt::format("{:.17g}", values[static_cast<Index>(i)] * factors_[i]));
   }
-  if (!is_sealed_) return write(csv_line(cells));
   const std::string row = fmt::format("{},", fmt::join(cells, ","));
   Checksum checksum = checksum_;
   checksum.add(row);

@@ -64,12 +64,10 @@ struct HistoryColumn {
   ColumnMeaning meaning = ColumnMeaning::quantity;
 };
 
-/// All columns in the order of the file. New ones come last, so a file of an earlier vehd has the first of them.
+/// All columns in the order of the file.
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind = HistoryKind::of_one);
 /// The columns of a membrane that porates; in the file they follow the rheology.
 std::vector<HistoryColumn> poration_columns(PorationModel model);
-/// Number of columns that every file has. A file of an earlier vehd may lack the rest and is continued without them.
-std::size_t first_columns(HistoryKind kind);
 
 /// Values of all columns of a row, [n_columns], in the numbers of the scene.
 Vector values_of(const HistoryRow& row, HistoryKind kind);
@@ -82,8 +80,7 @@ void require_history(const std::filesystem::path& path, std::int64_t bytes, std:
 void require_columns(const std::filesystem::path& path, HistoryKind kind);
 
 /// Appends rows to history.csv; each is in the file when `append` returns. Numbers have 17 significant digits: reading
-/// them back gives the same bits. The last cell of a row is the checksum of everything in the file before it, except in
-/// a file that an earlier vehd began without checksums.
+/// them back gives the same bits. The last cell of a row is the checksum of everything in the file before it.
 class HistoryFile {
  public:
   /// Starts a file, or continues one after its first `kept_bytes` bytes if that is not 0.
@@ -110,7 +107,6 @@ class HistoryFile {
   std::filesystem::path path_;
   HistoryKind kind_;
   std::vector<double> factors_;  ///< unit factors of the columns
-  bool is_sealed_ = true;        ///< rows end with checksums
   std::ofstream stream_;
   std::int64_t bytes_ = 0;
   Checksum checksum_;

@@ -253,12 +253,6 @@ std::vector<HistoryColumn> poration_columns(PorationModel model) {
           {"poration_z", "length", of_vesicle<&D::poration_z>}};
 }
 
-std::size_t first_columns(HistoryKind kind) {
-  // All columns before the rheology.
-  const auto& all = history_columns(kind);
-  return static_cast<std::size_t>(std::ranges::find(all, "stress_xx", &HistoryColumn::name) - all.begin());
-}
-
 const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
   static const std::array usual = {&columns_of_one(), &columns_of_all(), &columns_of_each()};
   // Without poration and with each of its models; each with and without varying parameters and a wall.
@@ -278,7 +272,6 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
           if (model > 0 && !(reacts && of_whole)) append(poration_columns(static_cast<PorationModel>(model - 1)));
           if (by_place && !of_whole) append(place_columns());
           if (wall) append(wall_columns(static_cast<HistoryKind::Rows>(rows)));
-          // Histories of earlier versions lack the columns from here on.
           if (rows != HistoryKind::of_each) append({{"wrinkle_growth", "1", wrinkle_growth, ColumnMeaning::method}});
           if (!of_whole) append({{"shape_rate", "1/time", of_vesicle<&D::shape_rate>, ColumnMeaning::method}});
           if (!of_whole) append(mode_columns());

@@ -66,8 +66,8 @@ BOOST_AUTO_TEST_CASE(a_report_contains_all_that_a_picture_does) {
   scene.numerics.tolerance = 1e-3;
   std::istringstream stream(
       "time [ms],dt [ms],bending_energy_scaled,Vm_north [mV],Vm_max [mV],extent_x [um],extent_y [um],extent_z [um],"
-      "area_drift,order\n"
-      "0,0,15,0,0,2,4,3,1e-9,8\n1,1,14,5,6,2,3,3,-2e-6,9\n2,1,14,5,6,2,3,3,0,9\n");
+      "aspect_ratio,area_drift,order\n"
+      "0,0,15,0,0,2,4,3,2,1e-9,8\n1,1,14,5,6,2,3,3,1.5,-2e-6,9\n2,1,14,5,6,2,3,3,1.5,0,9\n");
   const HistoryTable history(stream, "history.csv");
   const auto quantities = history_quantities(scene, history);
   std::vector<std::string> labels;
@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(a_report_contains_all_that_a_picture_does) {
              boost::test_tools::per_element());
   BOOST_TEST(quantities[1].unit == "mV");
   BOOST_TEST(quantities[1].curves.size() == 2);
-  BOOST_TEST(quantities[2].curves.front().label == "longest / shortest extent");
+  BOOST_TEST(quantities[2].curves.front().label == "aspect ratio");
   BOOST_TEST(quantities[2].curves.front().values == (std::vector<double>{2.0, 1.5, 1.5}),
              boost::test_tools::per_element());
   BOOST_TEST(quantities[3].is_logarithmic);
