@@ -12,6 +12,7 @@
 #include "bie/pictures/view.hpp"
 #include "bie/runs/given_times.hpp"
 #include "bie/runs/run_files.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 

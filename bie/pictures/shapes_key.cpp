@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <optional>
 
-#include "bie/pictures/view.hpp"
+#include "bie/scene/model_of.hpp"
+#include "bie/scene/shapes/placement.hpp"
 
 namespace vehd {
 namespace {
@@ -22,6 +25,8 @@ constexpr double word_size = 8.0;
 constexpr double hardly_seen = 0.25;
 
 using Plane = Eigen::Vector2d;
+/// v_∞ at a point, without its waveform.
+using Velocity = std::function<Vector3(const Vector3&)>;
 
 PagePoint point(const Plane& at) { return {at.x(), at.y()}; }
 
@@ -92,13 +97,24 @@ void draw_vector(Page& page, const Plane& centre, const Vector3& vector, const M
   }
 }
 
+Velocity velocity_of(const Scene& scene) {
+  if (const std::optional<BackgroundFlow> linear = model_of(scene).flow) {
+    return [gradient = linear->gradient](const Vector3& x) -> Vector3 { return gradient * x; };
+  }
+  return [flow = *scene.flow](const Vector3& x) -> Vector3 {
+    const double distance = flow.section == FlowSection::slit ? x.z() : std::hypot(x.y(), x.z());
+    return flow.centre_velocity * (1.0 - std::pow(distance / flow.radius, 2)) * Vector3::UnitX();
+  };
+}
+
 /// Draws a velocity profile: arrows from a line across the flow.
-void draw_profile(Page& page, const Plane& centre, const FlowScene& flow, const Matrix3& view, const Vector3& across) {
+void draw_profile(Page& page, const Plane& centre, const FlowScene& flow, const Velocity& v, const Matrix3& view,
+                  const Vector3& across) {
   constexpr double reach = 16.0, longest = 17.0;
   const double radius = flow.kind == FlowKind::poiseuille ? flow.radius : 1.0;
   double fastest = 0.0;
   constexpr std::array places{-0.9, -0.45, 0.0, 0.45, 0.9};
-  const auto velocity = [&](double place) -> Vector3 { return flow_velocity(flow, place * radius * across); };
+  const auto velocity = [&](double place) -> Vector3 { return v(place * radius * across); };
   for (const double place : places) fastest = std::max(fastest, velocity(place).norm());
   // All arrows of a Poiseuille flow point to one side: they start upstream of the middle.
   const Plane shift = flow.kind == FlowKind::poiseuille
@@ -114,7 +130,7 @@ void draw_profile(Page& page, const Plane& centre, const FlowScene& flow, const 
 }
 
 /// Draws arrows around a circle in the plane of the picture; false if the flow has no part in this plane.
-bool draw_ring(Page& page, const Plane& centre, const FlowScene& flow, const Matrix3& view) {
+bool draw_ring(Page& page, const Plane& centre, const Velocity& v, const Matrix3& view) {
   constexpr int n = 8;
   constexpr double radius = 13.0, longest = 9.0;
   std::array<Plane, n> places, arrows;
@@ -122,7 +138,7 @@ bool draw_ring(Page& page, const Plane& centre, const FlowScene& flow, const Mat
   for (int i = 0; i < n; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / n;
     places[i] = {std::cos(angle), std::sin(angle)};
-    const Vector3 velocity = view * flow_velocity(flow, view.topRows<2>().transpose() * places[i]);
+    const Vector3 velocity = view * v(view.topRows<2>().transpose() * places[i]);
     arrows[i] = velocity.head<2>();
     fastest = std::max(fastest, velocity.norm());
     fastest_seen = std::max(fastest_seen, arrows[i].norm());
@@ -139,17 +155,19 @@ bool draw_ring(Page& page, const Plane& centre, const FlowScene& flow, const Mat
   return true;
 }
 
-void draw_flow(Page& page, const Plane& centre, const FlowScene& flow, const Matrix3& view) {
+void draw_flow(Page& page, const Plane& centre, const Scene& scene, const Matrix3& view) {
+  const FlowScene& flow = *scene.flow;
+  const Velocity v = velocity_of(scene);
   const auto seen = [&view](const Vector3& direction) { return (view * direction).head<2>().norm() > 0.5; };
   const bool shear = flow.kind == FlowKind::shear, poiseuille = flow.kind == FlowKind::poiseuille;
   if ((shear || poiseuille) && seen(Vector3::UnitX())) {
-    if (seen(Vector3::UnitZ())) return draw_profile(page, centre, flow, view, Vector3::UnitZ());
+    if (seen(Vector3::UnitZ())) return draw_profile(page, centre, flow, v, view, Vector3::UnitZ());
     if (poiseuille && flow.section == FlowSection::tube)
-      return draw_profile(page, centre, flow, view, Vector3::UnitY());
+      return draw_profile(page, centre, flow, v, view, Vector3::UnitY());
   }
-  if (draw_ring(page, centre, flow, view)) return;
+  if (draw_ring(page, centre, v, view)) return;
   // The flow has no part in the plane: shows it on the side of the eye.
-  const Vector3 near = flow_velocity(flow, view.row(2).transpose());
+  const Vector3 near = v(view.row(2).transpose());
   if (near.norm() > 0.0) draw_vector(page, centre, near, view, flow_colour, false);
 }
 
@@ -207,7 +225,7 @@ void draw_key_item(Page& page, KeyItem item, const Box& box, const KeyTask& task
       return draw_vector(page, add_word(page, box, "gravity", gravity_colour),
                          vector_of(task.scene.gravity->acceleration), task.view, gravity_colour, false);
     case KeyItem::flow:
-      return draw_flow(page, add_word(page, box, "flow", flow_colour), *task.scene.flow, task.view);
+      return draw_flow(page, add_word(page, box, "flow", flow_colour), task.scene, task.view);
     case KeyItem::scale_bar:
       return draw_scale_bar(page, box, task);
   }

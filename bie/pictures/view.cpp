@@ -5,8 +5,11 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
+#include "bie/scene/model_of.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/sphere/principal_axes.hpp"
 #include "bie/support/csv.hpp"
 #include "bie/support/errors.hpp"
@@ -33,14 +36,6 @@ Matrix3 view_of_axis(int axis) {
   return view_along(axis == 1 ? Vector3(-Vector3::UnitY()) : Vector3(Vector3::Unit(axis)));
 }
 
-Matrix3 gradient_of(const FlowScene& flow) {
-  Matrix3 gradient;
-  for (int j = 0; j < 3; ++j) {
-    gradient.col(j) = 0.5 * (flow_velocity(flow, Vector3::Unit(j)) - flow_velocity(flow, -Vector3::Unit(j)));
-  }
-  return gradient;
-}
-
 /// M such that a^T M a is the weight along the unit vector a of what the picture should show.
 Matrix3 weights_of(const Scene& scene, const Matrix3& gyration) {
   Matrix3 weights = Matrix3::Zero();
@@ -49,9 +44,10 @@ Matrix3 weights_of(const Scene& scene, const Matrix3& gyration) {
   };
   if (scene.electric) add_direction(vector_of(scene.electric->field));
   if (scene.gravity) add_direction(vector_of(scene.gravity->acceleration));
-  if (scene.flow && scene.flow->kind == FlowKind::poiseuille) add_direction(Vector3::UnitX());
-  if (scene.flow && scene.flow->kind != FlowKind::poiseuille) {
-    const Matrix3 gradient = gradient_of(*scene.flow);
+  const std::optional<BackgroundFlow> linear = model_of(scene).flow;
+  if (scene.flow && !linear) add_direction(Vector3::UnitX());
+  if (linear) {
+    const Matrix3& gradient = linear->gradient;
     const double size = gradient.squaredNorm();
     if (size > 0.0) weights += (gradient * gradient.transpose() + gradient.transpose() * gradient) / size;
   }
@@ -68,8 +64,6 @@ Matrix3 weights_of(const Scene& scene, const Matrix3& gyration) {
 }
 
 }  // namespace
-
-Vector3 vector_of(const Triple& triple) { return {triple[0], triple[1], triple[2]}; }
 
 Matrix3 parse_view(const std::string& text) {
   constexpr std::array names{"x", "y", "z"};
@@ -88,25 +82,6 @@ Matrix3 parse_view(const std::string& text) {
         fmt::format("--view: \"{}\" is no direction; accepted: x, y, z or three numbers, as 1,1,0.5", text));
   }
   return view_along(direction);
-}
-
-Vector3 flow_velocity(const FlowScene& flow, const Vector3& x) {
-  switch (flow.kind) {
-    case FlowKind::shear:
-      return flow.rate * Vector3(x.z(), 0.0, 0.0);
-    case FlowKind::planar_extension:
-      return flow.rate * Vector3(x.x(), 0.0, -x.z());
-    case FlowKind::axisymmetric_extension:
-      return flow.rate * Vector3(-0.5 * x.x(), -0.5 * x.y(), x.z());
-    case FlowKind::poiseuille:
-      return flow.centre_velocity * (1.0 - (x.y() * x.y() + x.z() * x.z()) / (flow.radius * flow.radius)) *
-             Vector3::UnitX();
-    case FlowKind::gradient:
-      break;
-  }
-  Vector3 velocity;
-  for (int i = 0; i < 3; ++i) velocity[i] = vector_of(flow.gradient[static_cast<std::size_t>(i)]).dot(x);
-  return velocity;
 }
 
 Matrix3 default_view(const Scene& scene, const Matrix3& gyration) {

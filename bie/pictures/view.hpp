@@ -9,16 +9,10 @@
 /// Parallel projections: directions to the right, upwards and towards the eye.
 namespace vehd {
 
-/// The three numbers as a vector.
-Vector3 vector_of(const Triple& triple);
-
 /// "x" (y to the right, z upwards), "y" (x to the right, z upwards), "z" (x to the right, y upwards) or a direction
 /// towards the eye, "1,1,0.5".
 /// @throws InputError for anything else
 Matrix3 parse_view(const std::string& text);
-
-/// v_∞ of a scene at a point, without its waveform.
-Vector3 flow_velocity(const FlowScene& flow, const Vector3& place);
 
 /// View perpendicular to the plane of flow and field: along the axis with the least of these and gravity (y if several
 /// have none), or obliquely with less. If none decides, the axis of a body of revolution lies in the plane.

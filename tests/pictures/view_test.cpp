@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <boost/test/unit_test.hpp>
 
+#include "bie/pictures/shapes_key.hpp"
 #include "bie/support/errors.hpp"
 
 using namespace vehd;
@@ -66,6 +67,18 @@ BOOST_AUTO_TEST_CASE(without_flow_and_field_the_axis_of_the_shape_lies_in_the_pl
       gyration(axis, axis) = moment;
       BOOST_TEST(std::abs(eye(default_view(Scene(), gyration))[axis]) < 1e-9);
     }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(arrows_of_a_flow_between_planes_are_equal_along_them) {
+  Scene scene = with_flow(FlowKind::poiseuille);
+  scene.flow->section = FlowSection::slit;
+  Page page;
+  draw_key_item(page, KeyItem::flow, {0.0, 0.0, key_width, key_height(KeyItem::flow)},
+                {scene, parse_view("z"), 1.0, {}});
+  BOOST_TEST(page.lines.size() == 8U);
+  for (const PageLine& arrow : page.lines) {
+    BOOST_TEST(arrow.points[1][0] - arrow.points[0][0] == 9.0, boost::test_tools::tolerance(1e-12));
   }
 }
 
