@@ -4,42 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include "bie/support/csv.hpp"
 #include "bie/support/errors.hpp"
-#include "bie/support/file_system.hpp"
 
 namespace vehd {
 
-BenchRecord::BenchRecord(const std::filesystem::path& csv) : file_(csv.string()) {
-  if (!std::filesystem::exists(csv)) throw InputError(fmt::format("{}: no such file", file_));
-  std::istringstream stream(text_of_file(csv));
-  std::string line;
-  if (std::getline(stream, line)) columns_ = quoted_csv_cells(line);
-  while (std::getline(stream, line)) {
-    rows_.push_back(quoted_csv_cells(line));
-    if (rows_.back().size() != columns_.size()) {
-      throw InputError(fmt::format("{}:{}: has {} cells; accepted: {}", file_, rows_.size() + 1, rows_.back().size(),
-                                   columns_.size()));
-    }
-  }
-}
-
-bool BenchRecord::has(const std::string& column) const { return std::ranges::find(columns_, column) != columns_.end(); }
-
 std::size_t BenchRecord::index(const std::string& column) const {
-  const auto found = std::ranges::find(columns_, column);
-  if (found == columns_.end()) throw InputError(fmt::format("{}:1: has no column {}", file_, column));
-  return static_cast<std::size_t>(found - columns_.begin());
+  if (const auto found = find(column)) return *found;
+  throw InputError(fmt::format("{}: has no column {}", header_place(), column));
 }
 
 std::vector<std::string> BenchRecord::texts(const std::string& column, const std::string& key,
                                             const std::string& value) const {
   const std::size_t at = index(column);
   std::vector<std::string> result;
-  for (const auto& row : rows_) {
-    if (key.empty() || row[index(key)] == value) result.push_back(row[at]);
+  for (std::size_t row = 0; row < n_rows(); ++row) {
+    if (key.empty() || text(row, index(key)) == value) result.push_back(text(row, at));
   }
   return result;
 }
@@ -102,9 +82,9 @@ bool has_points(const BenchCurve& curve) {
 
 std::vector<BenchPanel> time_panels(const BenchRecord& record) {
   // Further tables of this bench have no curves.
-  if (!record.has("steps")) return {};
+  if (!record.find("steps")) return {};
   // Errors of the steps only, which files of earlier versions lack.
-  const bool apart = record.has("error_in_time");
+  const bool apart = record.find("error_in_time").has_value();
   const std::string error = apart ? "error_in_time" : "error";
   BenchPanel seconds{"seconds", "largest relative error"};
   BenchPanel steps{"steps", apart ? "error of the steps alone" : ""};
@@ -138,8 +118,8 @@ std::vector<BenchPanel> parts_panels(const BenchRecord& record) {
   seconds.x_ticks = memory.x_ticks = orders;
   int colour = 0;
   const std::string start = "seconds_";
-  for (const std::string& column : record.columns()) {
-    if (!column.starts_with(start) || !record.has(column + "_min")) continue;
+  for (const std::string& column : record.names()) {
+    if (!column.starts_with(start) || !record.find(column + "_min")) continue;
     const std::string part = column.substr(start.size());
     // The whole step lies above all its parts in seconds, and hardly above the largest in memory.
     const CurveKind kind = part == "step" ? CurveKind::wide : CurveKind::line;

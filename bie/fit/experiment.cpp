@@ -21,10 +21,16 @@ std::string header(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
 }
 
+std::size_t column_of(const CsvTable& table, const std::string& name) {
+  if (const auto found = table.find(name)) return *found;
+  throw InputError(fmt::format("{}: has no column \"{}\"; {}", table.header_place(), name,
+                               suggestion(name, {table.names().begin(), table.names().end()})));
+}
+
 /// The first column: time or a key of the scene.
-void read_abscissa(Experiment& experiment, const DataTable& table) {
+void read_abscissa(Experiment& experiment, const CsvTable& table) {
   Measured& measured = experiment.measured;
-  measured.abscissa = table.name(0);
+  measured.abscissa = table.names().front();
   measured.abscissa_unit = table.unit(0);
   if (!measured.is_against_time()) {
     static_cast<void>(keys_named(measured.abscissa, table.header_place(), "the first column, which is time or a key"));
@@ -34,7 +40,7 @@ void read_abscissa(Experiment& experiment, const DataTable& table) {
 }
 
 /// Standard deviations in SI base units, one for each row.
-std::vector<double> deviations_in(const Experiment& experiment, const DataTable& table,
+std::vector<double> deviations_in(const Experiment& experiment, const CsvTable& table,
                                   const std::optional<Quantity>& given) {
   const Measured& measured = experiment.measured;
   std::vector<double> deviations(table.n_rows());
@@ -117,12 +123,12 @@ std::vector<DataOfRun> runs_of(const Measured& measured, const std::vector<Datum
   return runs;
 }
 
-void read_data(Experiment& experiment, const DataTable& table, const std::string& quantity, const std::string& place,
+void read_data(Experiment& experiment, const CsvTable& table, const std::string& quantity, const std::string& place,
                const std::optional<Quantity>& deviation) {
   Measured& measured = experiment.measured;
   measured.quantity = quantity;
   measured.dimension = dimension_of(experiment.scene, quantity, place);
-  const std::size_t values = table.column(measured.column());
+  const std::size_t values = column_of(table, measured.column());
   measured.unit = table.unit(values);
   measured.factor = unit_factor(experiment.scene, measured.dimension, measured.unit, table.header_place());
   read_abscissa(experiment, table);
@@ -137,7 +143,7 @@ void read_data(Experiment& experiment, const DataTable& table, const std::string
         throw InputError(fmt::format("{}: \"time\" is {}; accepted: 0 or later", table.place(row), datum.at));
       }
     }
-    if (measured.is_contour()) datum.angle_deg = table.number(row, table.column(contour_angle));
+    if (measured.is_contour()) datum.angle_deg = table.number(row, column_of(table, contour_angle));
     experiment.data.push_back(std::move(datum));
   }
   experiment.runs = runs_of(measured, experiment.data);

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "bie/fit/data_table.hpp"
 #include "bie/scene/scene.hpp"
 #include "bie/scene/settings.hpp"
 #include "bie/scene/units.hpp"
+#include "bie/support/csv.hpp"
 
 namespace vehd {
 
@@ -80,7 +80,7 @@ std::vector<DataOfRun> runs_of(const Measured& measured, const std::vector<Datum
 /// @param quantity   measured quantity; `place` is its "file:line" for messages
 /// @param deviation  of every datum, if the file has no column of deviations
 /// @throws InputError "file:line: ..."
-void read_data(Experiment& experiment, const DataTable& table, const std::string& quantity, const std::string& place,
+void read_data(Experiment& experiment, const CsvTable& table, const std::string& quantity, const std::string& place,
                const std::optional<Quantity>& deviation);
 
 /// The largest tolerance of a run.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bie/fit/data_table.hpp"
 #include "bie/scene/key_lookup.hpp"
 #include "bie/scene/read/toml_values.hpp"
 #include "bie/scene/reader.hpp"
@@ -23,14 +22,17 @@ std::optional<Quantity> deviation_in(const NamedTable& table) {
 
 Experiment experiment_in(const NamedTable& table, const std::filesystem::path& folder) {
   table.require_words({"name", "scene", "data", "quantity", "deviation"});
-  const std::filesystem::path data = table.path("data", "path of a CSV file", folder);
+  const std::filesystem::path file = table.path("data", "path of a CSV file", folder);
   Experiment experiment;
   experiment.source.file = table.path("scene", "path of a scene", folder);
   experiment.scene = read_scene(experiment.source);
-  experiment.name = table.entries.contains("name") ? table.text("name", "a name") : data.stem().string();
+  experiment.name = table.entries.contains("name") ? table.text("name", "a name") : file.stem().string();
   const std::string quantity = table.text("quantity", "a column of history.csv, or \"contour\"");
-  read_data(experiment, DataTable(data), quantity, place(*table.entries.get("quantity"), table.file.name),
-            deviation_in(table));
+  const CsvTable data(file);
+  if (data.n_rows() == 0) {
+    throw InputError(fmt::format("{}: holds no numbers; accepted: a header and rows below it", file.string()));
+  }
+  read_data(experiment, data, quantity, place(*table.entries.get("quantity"), table.file.name), deviation_in(table));
   return experiment;
 }
 

@@ -28,7 +28,7 @@ SweepRows::SweepRows(const SweepPaths& paths) {
     refuse(paths.description(), "describes no sweep");
   }
   std::istringstream text(text_of_file(paths.table()));
-  for (std::string line; std::getline(text, line);) cells.push_back(quoted_csv_cells(line));
+  for (std::string line; std::getline(text, line);) cells.push_back(csv_cells(line));
   const auto fits = [&](const auto& row) { return row.size() == keys.size() + columns.size() + 4; };
   if (cells.empty() || !std::ranges::all_of(cells, fits)) refuse(paths.table(), "is no table of this sweep");
   cells.erase(cells.begin());
@@ -105,7 +105,7 @@ std::vector<SweepCurve> read_sweep_curves(const std::filesystem::path& path, con
   std::istringstream text(text_of_file(path));
   std::string line;
   std::getline(text, line);
-  const std::vector<std::string> header = quoted_csv_cells(line);
+  const std::vector<std::string> header = csv_cells(line);
   std::array<std::size_t, 2> cell_of_key{};
   for (std::size_t k = 0; k < 2; ++k) {
     const auto found = std::ranges::find(header, rows.keys[k].name);
@@ -124,7 +124,7 @@ std::vector<SweepCurve> read_sweep_curves(const std::filesystem::path& path, con
       continue;
     }
     const std::string where = fmt::format("{}:{}", file, number);
-    const std::vector<std::string> cells = quoted_csv_cells(line);
+    const std::vector<std::string> cells = csv_cells(line);
     if (cells.size() != header.size()) {
       throw InputError(fmt::format("{}: has {} cells instead of {}", where, cells.size(), header.size()));
     }

@@ -34,7 +34,7 @@ struct SweepWork {
     std::istringstream text(file_text((place.empty() ? output : place) + "/table.csv"));
     std::vector<std::vector<std::string>> rows;
     for (std::string line; std::getline(text, line);) {
-      rows.push_back(vehd::quoted_csv_cells(line));
+      rows.push_back(vehd::csv_cells(line));
       rows.back().erase(rows.back().end() - 2);
     }
     return rows;
