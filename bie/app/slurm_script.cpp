@@ -73,15 +73,15 @@ std::string slurm_script(const SlurmTask& task) {
 {optional_lines}#SBATCH --open-mode=append
 #SBATCH --output="{directory}/slurm-%a.log"
 
-{prologue}srun --cpus-per-task={cpus} {program} sweep {sweep} -o {directory_word} --pack "$SLURM_ARRAY_TASK_ID" --jobs {jobs} --threads {threads}
+{prologue}srun --cpus-per-task={cpus} {program} sweep {sweep} -o {directory_word} --member "$SLURM_ARRAY_TASK_ID/{members}" --jobs {jobs} --threads {threads}
 status=$?
 {next_turn}exit "$status"
 )",
       fmt::arg("predicted", task.predicted), fmt::arg("submission", submission(task)),
       fmt::arg("optional_lines", optional_lines(task)), fmt::arg("prologue", task.prologue),
       fmt::arg("next_turn", task.n_turns == 1 ? next_turn : ""), fmt::arg("name", sbatch_text(task.name)),
-      fmt::arg("last", task.n_members - 1), fmt::arg("cpus", task.n_cpus), fmt::arg("minutes", task.minutes),
-      fmt::arg("notice", notice), fmt::arg("directory", sbatch_text(task.directory)),
+      fmt::arg("last", task.n_members - 1), fmt::arg("members", task.n_members), fmt::arg("cpus", task.n_cpus),
+      fmt::arg("minutes", task.minutes), fmt::arg("notice", notice), fmt::arg("directory", sbatch_text(task.directory)),
       fmt::arg("directory_word", shell_word(task.directory)), fmt::arg("program", shell_word(task.program)),
       fmt::arg("sweep", shell_word(task.sweep)), fmt::arg("jobs", task.n_jobs), fmt::arg("threads", task.n_threads));
 }

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <memory>
 #include <numeric>
@@ -9,7 +11,7 @@
 #include "bie/app/commands.hpp"
 #include "bie/app/scene_choice.hpp"
 #include "bie/app/slurm_script.hpp"
-#include "bie/estimate/sweep_packs.hpp"
+#include "bie/estimate/sweep_cost.hpp"
 #include "bie/runs/sweep/sweep_work.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
@@ -25,7 +27,7 @@ struct SweepOptions {
   fs::path file;
   std::string directory;
   WorkerOptions workers;
-  std::optional<std::size_t> pack;
+  std::array<std::size_t, 2> member{0, 1};
   std::string emit;
   int minutes = 60;
   int n_turns = 1;
@@ -56,20 +58,11 @@ PreparedSweep prepared(const SweepOptions& options) {
   return {std::move(sweep), std::move(runs), paths};
 }
 
-/// Order in which a worker tries the runs: those of its pack first.
-std::vector<std::size_t> order_of_runs(const SweepOptions& options, const PreparedSweep& sweep) {
-  std::vector<std::size_t> order(sweep.runs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  if (!options.pack) return order;
-  const nlohmann::json packs = nlohmann::json::parse(text_of_file(sweep.paths.packs()), nullptr, false);
-  if (!packs.is_array() || *options.pack >= packs.size()) {
-    throw InputError(fmt::format("--pack {}: {} has no such pack; accepted: one of those that --emit slurm has made",
-                                 *options.pack, sweep.paths.packs().string()));
-  }
-  const auto names = packs[*options.pack].get<std::vector<std::string>>();
-  const auto is_mine = [&](std::size_t i) { return std::ranges::find(names, sweep.runs[i].name) != names.end(); };
-  std::stable_partition(order.begin(), order.end(), is_mine);
-  return order;
+/// The run with which member K of N of an array of jobs begins, so that the members meet as late as possible.
+std::size_t first_of(const std::array<std::size_t, 2>& member, std::size_t n_runs) {
+  const auto [k, n] = member;
+  if (k >= n) throw InputError(fmt::format("--member {}/{}: accepted: K/N with K from 0 to N - 1", k, n));
+  return k * n_runs / n;
 }
 
 nlohmann::json json_of(const SweepCount& count, const PreparedSweep& sweep) {
@@ -95,19 +88,6 @@ ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
   const SweepCost cost = predicted_cost(sweep.runs);
   const std::vector<double>& seconds = cost.seconds;
   const int n_jobs = options.workers.n_jobs > 0 ? options.workers.n_jobs : 1;
-  const std::vector<SweepPack> packs = packs_of(seconds, packs_within(seconds, 60.0 * options.minutes * n_jobs));
-  nlohmann::json names = nlohmann::json::array(), json = nlohmann::json::array();
-  for (const SweepPack& pack : packs) {
-    nlohmann::json pack_names = nlohmann::json::array();
-    double total = 0.0;
-    for (const std::size_t run : pack) {
-      if (sweep.runs[run].scene) pack_names.push_back(sweep.runs[run].name);
-      total += seconds[run];
-    }
-    names.push_back(pack_names);
-    json.push_back({{"runs", pack_names.size()}, {"seconds", total}});
-  }
-  replace_shared_file(sweep.paths.packs(), names.dump(1) + "\n");
   const double total = std::accumulate(seconds.begin(), seconds.end(), 0.0);
   const double longest = seconds.empty() ? 0.0 : *std::ranges::max_element(seconds);
   SlurmTask task;
@@ -115,7 +95,11 @@ ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
   task.program = fs::read_symlink("/proc/self/exe").string();
   task.sweep = fs::absolute(options.file).lexically_normal().string();
   task.directory = fs::absolute(sweep.paths.directory).lexically_normal().string();
-  task.n_members = packs.size();
+  // With a margin for low predictions; more members than runs would have nothing to do.
+  constexpr double margin = 1.5;
+  const double wanted = std::ceil(margin * total / (60.0 * options.minutes * n_jobs));
+  const auto most = static_cast<double>(std::max<std::size_t>(sweep.runs.size(), 1));
+  task.n_members = static_cast<std::size_t>(std::clamp(wanted, 1.0, most));
   task.n_jobs = n_jobs;
   task.n_threads = options.workers.n_threads;
   task.n_cpus = n_jobs * options.workers.n_threads;
@@ -128,9 +112,10 @@ ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
   task.predicted = fmt::format("{} runs, predicted to take {} together and {} the longest of them", sweep.runs.size(),
                                duration_text(total), duration_text(longest));
   replace_shared_file(sweep.paths.slurm_script(), slurm_script(task));
-  fmt::print("{}\n{} jobs of {} min\nscript: {}\n", task.predicted, packs.size(), options.minutes,
+  fmt::print("{}\n{} jobs of {} min\nscript: {}\n", task.predicted, task.n_members, options.minutes,
              sweep.paths.slurm_script().string());
-  write_json(options.common, {{"script", sweep.paths.slurm_script().string()}, {"packs", json}, {"seconds", total}});
+  write_json(options.common,
+             {{"script", sweep.paths.slurm_script().string()}, {"jobs", task.n_members}, {"seconds", total}});
   return ExitCode::done;
 }
 
@@ -139,6 +124,7 @@ ExitCode sweep(const SweepOptions& options) {
   const ThreadCount one(1);
   const PreparedSweep sweep = prepared(options);
   if (!options.emit.empty()) return emit_slurm(options, sweep);
+  const std::size_t first = first_of(options.member, sweep.runs.size());
   std::string problem;
   {
     Interruption interruption;
@@ -150,9 +136,7 @@ ExitCode sweep(const SweepOptions& options) {
       progress.update(share, fmt::format("{}/{} runs  left {}", n_finished, n_runs, left));
     };
     const int n_workers = std::clamp<int>(static_cast<int>(sweep.runs.size()), 1, options.workers.jobs());
-    problem =
-        run_sweep({sweep.paths, sweep.runs, order_of_runs(options, sweep), n_workers, options.workers.n_threads, show},
-                  interruption);
+    problem = run_sweep({sweep.paths, sweep.runs, n_workers, options.workers.n_threads, show, first}, interruption);
     progress.finish();
   }
   const SweepCount count = write_sweep_table(sweep.paths, sweep.sweep, sweep.runs);
@@ -208,8 +192,10 @@ void add_sweep_command(CLI::App& program, ExitCode& exit_code) {
       ->type_name("N")
       ->check(CLI::Range(2, 1000))
       ->needs(emit);
-  command->add_option("--pack", options->pack, "Begin with the runs of this pack of --emit, then help with the others")
-      ->type_name("N");
+  command
+      ->add_option("--member", options->member, "Member K, from 0, of an array of N jobs; each begins with another run")
+      ->delimiter('/')
+      ->type_name("K/N");
   command->add_flag("--quiet", options->quiet, "Show no progress");
   add_common_options(*command, options->common);
   command->footer(

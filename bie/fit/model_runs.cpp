@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "bie/fit/run_values.hpp"
@@ -58,15 +57,13 @@ SweepRun ModelRuns::run_of(const Experiment& experiment, const DataOfRun& data,
 }
 
 void ModelRuns::compute(const std::vector<SweepRun>& runs) const {
-  std::vector<std::size_t> order(runs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
   const SweepPaths paths{work_.directory};
   const auto is_left = [&](const SweepRun& run) { return run.scene && !has_result(paths.run(run)); };
   const auto n_left = std::ranges::count_if(runs, is_left);
   if (n_left == 0) return;
   const int n_workers = std::clamp<int>(static_cast<int>(n_left), 1, work_.n_workers);
   const std::string problem =
-      run_sweep({paths, runs, std::move(order), n_workers, work_.n_threads, work_.report_progress}, interruption_);
+      run_sweep({paths, runs, n_workers, work_.n_threads, work_.report_progress}, interruption_);
   if (!problem.empty()) throw Interrupted(problem);
 }
 

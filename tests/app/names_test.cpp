@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(of_a_sweep_are_words_of_its_script_for_slurm) {
     };
     for (const std::string& word :
          {std::string("--cpus-per-task=1"), std::string(VEHD_PROGRAM), std::string("sweep"), absolute(place + ".toml"),
-          std::string("-o"), absolute(place), std::string("--pack"), std::string("0"), std::string("--jobs"),
+          std::string("-o"), absolute(place), std::string("--member"), std::string("0/1"), std::string("--jobs"),
           std::string("1"), std::string("--threads"), std::string("1")}) {
       expected += word + '\0';
     }

@@ -197,9 +197,9 @@ BOOST_FIXTURE_TEST_CASE(a_script_for_slurm_shares_the_runs_out, SweepWork) {
   BOOST_TEST_REQUIRE(memory != std::string::npos, script);
   BOOST_TEST(std::stoi(script.substr(memory + 14)) > 10);
   BOOST_TEST(std::stoi(script.substr(memory + 14)) < 2000);
-  BOOST_TEST(json_of(output + "/packs.json").at(0).size() == 6u);
-  BOOST_TEST(run({"--pack", "0"}).exit_code == 0);
-  BOOST_TEST(run({"--pack", "7"}).errors.starts_with("--pack 7: "));
+  BOOST_TEST(json_of(directory / "result.json").at("jobs").get<int>() == 1);
+  BOOST_TEST(run({"--member", "1/2"}).exit_code == 0);
+  BOOST_TEST(run({"--member", "7/7"}).errors.starts_with("--member 7/7: "));
 }
 
 BOOST_FIXTURE_TEST_CASE(a_slurm_script_has_the_options_of_the_cluster, SweepWork) {

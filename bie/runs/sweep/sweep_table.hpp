@@ -22,8 +22,6 @@ struct SweepPaths {
   [[nodiscard]] std::filesystem::path description() const { return directory / "sweep.json"; }
   [[nodiscard]] std::filesystem::path runs() const { return directory / "runs"; }
   [[nodiscard]] std::filesystem::path run(const SweepRun& run) const { return runs() / run.name; }
-  /// The runs with which each member of an array of jobs begins.
-  [[nodiscard]] std::filesystem::path packs() const { return directory / "packs.json"; }
   [[nodiscard]] std::filesystem::path slurm_script() const { return directory / "sweep.sbatch"; }
 };
 

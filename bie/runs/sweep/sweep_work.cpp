@@ -86,7 +86,8 @@ WorkerEnd claim_runs(const SweepTask& task, Interruption& interruption, WorkerBo
   std::vector<bool> is_settled(task.runs.size(), false);
   for (bool found = true; found;) {
     found = false;
-    for (const std::size_t i : task.order) {
+    for (std::size_t k = 0; k < task.runs.size(); ++k) {
+      const std::size_t i = (task.first + k) % task.runs.size();
       if (is_settled[i]) continue;
       if (interruption.requested()) return WorkerEnd::interrupted;
       is_settled[i] = !task.runs[i].scene || has_result(task.paths.run(task.runs[i]));

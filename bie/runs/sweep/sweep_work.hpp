@@ -16,11 +16,11 @@ namespace vehd {
 struct SweepTask {
   const SweepPaths& paths;
   const std::vector<SweepRun>& runs;
-  std::vector<std::size_t> order;  ///< order in which workers try the runs
   int n_workers = 1;
   int n_threads = 1;  ///< threads of each worker
   /// Called often; n_runs counts the runs without a result at the start.
   std::function<void(std::int64_t n_finished, std::int64_t n_runs, double share)> report_progress{};
+  std::size_t first = 0;  ///< run that workers try first, then those after it and at last those before it
 };
 
 /// Computes a sweep with processes of this machine until they find no run that they can claim. A process that is ended

@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(arrays_and_tasks_of_slurm_are_workers_of_one_sweep) {
   BOOST_TEST_REQUIRE(work.run({"--emit", "slurm"}).exit_code == 0);
   std::string script = file_text(work.output + "/sweep.sbatch");
   script.replace(script.find("--array=0-0"), 11, "--array=0-1");
-  script.replace(script.find("--pack \"$SLURM_ARRAY_TASK_ID\""), 29, "--pack 0");
+  script.replace(script.find("$SLURM_ARRAY_TASK_ID/1"), 22, "$SLURM_ARRAY_TASK_ID/2");
   write_text(work.output + "/sweep.sbatch", script);
   const ProgramResult submitted = run_command({"sbatch", "--parsable", work.output + "/sweep.sbatch"});
   BOOST_TEST_REQUIRE(submitted.exit_code == 0, submitted.errors);

@@ -2,7 +2,6 @@
 
 #include <boost/test/unit_test.hpp>
 #include <fstream>
-#include <numeric>
 
 #include "bie/runs/session.hpp"
 #include "tests/support/files.hpp"
@@ -54,12 +53,10 @@ struct CountedSweep {
       vehd::write_result(paths.runs() / run.name, {"trustworthy", "", 1.0, {{"time", "0.5"}}});
     }
   }
-  void work() const {
-    std::vector<std::size_t> order(runs.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
+  void work(std::size_t first = 0) const {
     vehd::Interruption interruption;
     vehd::WorkerBoard board{};
-    const vehd::SweepTask task{paths, runs, order};
+    const vehd::SweepTask task{.paths = paths, .runs = runs, .first = first};
     BOOST_TEST((vehd::work_at_sweep(task, interruption, board) == vehd::WorkerEnd::nothing_left));
   }
 };
@@ -103,6 +100,16 @@ BOOST_AUTO_TEST_CASE(a_worker_adds_a_result_to_what_a_run_writes_alone) {
   };
   // For each run the history is read for its last row, and result.json is written.
   BOOST_TEST(added_by_worker(5) - added_by_worker(2) <= 3 * 4);
+}
+
+BOOST_AUTO_TEST_CASE(a_worker_begins_with_its_run_and_comes_round_to_those_before_it) {
+  const CountedSweep sweep(3);
+  sweep.work(1);
+  const auto end_of = [&](std::size_t i) {
+    return std::filesystem::last_write_time(sweep.paths.run(sweep.runs[i]) / "result.json");
+  };
+  BOOST_TEST((end_of(1) < end_of(2)));
+  BOOST_TEST((end_of(2) < end_of(0)));
 }
 
 BOOST_AUTO_TEST_CASE(seconds_of_a_run_are_those_of_all_its_work) {

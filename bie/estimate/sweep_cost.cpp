@@ -1,11 +1,9 @@
-#include "bie/estimate/sweep_packs.hpp"
+#include "bie/estimate/sweep_cost.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numeric>
 
 #include "bie/estimate/cost.hpp"
 
@@ -58,30 +56,6 @@ SweepCost predicted_cost(const std::vector<SweepRun>& runs) {
   }
   for (const std::size_t i : unknown) result.seconds[i] = n_known > 0.0 ? total / n_known : 1.0;
   return result;
-}
-
-std::vector<SweepPack> packs_of(const std::vector<double>& seconds, std::size_t n_packs) {
-  std::vector<std::size_t> longest_first(seconds.size());
-  std::iota(longest_first.begin(), longest_first.end(), std::size_t{0});
-  std::stable_sort(longest_first.begin(), longest_first.end(),
-                   [&](std::size_t a, std::size_t b) { return seconds[a] > seconds[b]; });
-  std::vector<SweepPack> packs(std::max<std::size_t>(n_packs, 1));
-  std::vector<double> load(packs.size(), 0.0);
-  for (const std::size_t run : longest_first) {
-    const auto least = static_cast<std::size_t>(std::min_element(load.begin(), load.end()) - load.begin());
-    packs[least].push_back(run);
-    load[least] += seconds[run];
-  }
-  std::erase_if(packs, [](const SweepPack& pack) { return pack.empty(); });
-  return packs;
-}
-
-std::size_t packs_within(const std::vector<double>& seconds, double limit_seconds) {
-  constexpr double room = 1.5;
-  const double total = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-  const auto wanted = std::ceil(room * total / limit_seconds);
-  const auto most = static_cast<double>(std::max<std::size_t>(seconds.size(), 1));
-  return static_cast<std::size_t>(std::clamp(wanted, 1.0, most));
 }
 
 }  // namespace vehd
