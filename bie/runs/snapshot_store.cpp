@@ -78,10 +78,23 @@ SnapshotStore::SnapshotStore(std::filesystem::path path, const WriteHeader& writ
   or_remove(spare_, [&] { copy_whole(path_, spare_); });
 }
 
+Hdf5Writer SnapshotStore::open_spare() {
+  try {
+    return {spare_, Hdf5Writer::Mode::extend};
+  } catch (const OutputError&) {
+    // Whoever opened run.h5 before the last exchange of names still reads this file and has locked it: it is theirs.
+    std::error_code ignored;
+    std::filesystem::remove(spare_, ignored);
+    copy_whole(path_, spare_);
+    spare_size_ = size_;
+    return {spare_, Hdf5Writer::Mode::extend};
+  }
+}
+
 void SnapshotStore::add(std::size_t count, const WriteSnapshot& write) {
   std::vector<std::int64_t> checksums;
   or_remove(spare_, [&] {
-    Hdf5Writer spare(spare_, Hdf5Writer::Mode::extend);
+    Hdf5Writer spare = open_spare();
     if (spare_size_ < size_) {
       Hdf5Writer current(path_, Hdf5Writer::Mode::read);
       for (; spare_size_ < size_; ++spare_size_) spare.copy_from(current, group_of(spare_size_));

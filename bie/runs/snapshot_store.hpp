@@ -22,8 +22,9 @@ void require_counted(const RunReader& run, std::int64_t count, std::int64_t chec
 /// A growing run.h5 that is a complete, closed HDF5 file at every instant.
 ///
 /// A hidden second file lacks the snapshots added last. New ones are written there together with the missing ones, and
-/// then the two names are exchanged: a kill leaves either the old or the new file under the name run.h5. The cost of a
-/// snapshot does not grow with the run; snapshots added together share the opening and closing of files.
+/// then the two names are exchanged: a kill leaves either the old or the new file under the name run.h5, and a reader
+/// keeps the file that it has opened. The cost of a snapshot does not grow with the run, unless somebody reads it;
+/// snapshots added together share the opening and closing of files.
 class SnapshotStore {
  public:
   using WriteHeader = std::function<void(Hdf5Writer&)>;
@@ -54,6 +55,8 @@ class SnapshotStore {
   void finish();
 
  private:
+  Hdf5Writer open_spare();
+
   std::filesystem::path path_, spare_;
   std::int64_t size_ = 0;
   std::int64_t spare_size_ = 0;

@@ -124,6 +124,30 @@ BOOST_FIXTURE_TEST_CASE(snapshots_that_the_checkpoint_counts_must_be_there, Kill
                                   " snapshots that checkpoint.h5 counts");
 }
 
+BOOST_AUTO_TEST_CASE(a_run_goes_on_while_somebody_reads_its_snapshots) {
+  const TemporaryDirectory directory;
+  const vehd::RunPaths paths{directory / "out"};
+  const vehd::Scene scene = vehd::parse_scene(quick_scene("2.0"), "scene.toml", directory / "");
+  vehd::make_directory(paths.directory);
+  vehd::RecordedRun run({scene, paths, std::nullopt});
+  run.start();
+  const auto snapshot_now = [&] {
+    run.step();
+    run.snapshot();
+    return vehd::RunReader(paths.snapshots());
+  };
+  std::vector<vehd::RunReader> readers;
+  for (int step = 0; step < 5; ++step) readers.push_back(snapshot_now());
+  run.end({.completed = true});
+  const vehd::RunReader whole(paths.snapshots());
+  for (const vehd::RunReader& reader : readers) {
+    const std::size_t last = reader.times().size() - 1;
+    BOOST_TEST(last == static_cast<std::size_t>(&reader - readers.data()) + 1U);
+    BOOST_TEST((reader.snapshot(last).coefficients("x") == whole.snapshot(last).coefficients("x")));
+  }
+  BOOST_TEST(whole.times().size() == 6U);
+}
+
 BOOST_FIXTURE_TEST_CASE(files_of_an_earlier_vehd_are_read_and_said_to_be_unsealed, KilledRun) {
   remove_seals(paths);
   write_text(paths.summary(), "{\"verdict\": \"trustworthy\"}");
