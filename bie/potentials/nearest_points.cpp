@@ -160,7 +160,8 @@ NearestPoints nearest_points(const Matrix& first, const Matrix& second) {
   return nearest_points(SampledMembrane(first), SampledMembrane(second));
 }
 
-ClosestPair closest_pair(const std::vector<Matrix>& membranes) {
+std::vector<ClosePair> close_pairs(const std::vector<Matrix>& membranes, double reach) {
+  if (membranes.size() < 2) return {};
   std::vector<SampledMembrane> sampled;
   std::map<int, SphereTransform> transforms;
   for (const Matrix& membrane : membranes) {
@@ -183,14 +184,16 @@ ClosestPair closest_pair(const std::vector<Matrix>& membranes) {
     }
   }
   std::ranges::sort(candidates, {}, &Candidate::least);
-  ClosestPair closest;
-  closest.points.gap = std::numeric_limits<double>::infinity();
+  std::vector<ClosePair> close;
+  double smallest = std::numeric_limits<double>::infinity();
   for (const auto& [least, a, b] : candidates) {
-    if (least > closest.points.gap) break;
-    const NearestPoints found = nearest_points(sampled[a], sampled[b]);
-    if (found.gap < closest.points.gap) closest = {a, b, found};
+    if (least > std::max(reach, smallest)) break;
+    close.push_back({a, b, nearest_points(sampled[a], sampled[b])});
+    smallest = std::min(smallest, close.back().points.gap);
   }
-  return closest;
+  std::erase_if(close, [&](const ClosePair& pair) { return pair.points.gap > std::max(reach, smallest); });
+  std::ranges::stable_sort(close, {}, [](const ClosePair& pair) { return pair.points.gap; });
+  return close;
 }
 
 Arrangement arrangement_of(const Matrix& first, const Matrix& second) {

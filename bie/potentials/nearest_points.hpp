@@ -21,15 +21,17 @@ struct NearestPoints {
 /// 1e-6 to 10 to 1e-12 (tests/potentials/nearest_points_test.cpp)
 NearestPoints nearest_points(const Matrix& first, const Matrix& second);
 
-/// The two of several membranes with the smallest gap.
-struct ClosestPair {
+/// Two of several membranes.
+struct ClosePair {
   std::size_t first = 0, second = 0;  ///< their indices
   NearestPoints points;
 };
 
-/// The closest of all pairs; balls about the membranes exclude distant ones.
-/// @param membranes  at least two; coefficients of x of each, [n_coefficients x 3]
-ClosestPair closest_pair(const std::vector<Matrix>& membranes);
+/// The pairs with a gap of at most `reach`, and the closest pair whatever its gap; balls about the membranes exclude
+/// distant ones.
+/// @param membranes  coefficients of x of each, [n_coefficients x 3]
+/// @return the closest pair first; empty for less than two membranes
+std::vector<ClosePair> close_pairs(const std::vector<Matrix>& membranes, double reach);
 
 /// Position of two membranes relative to each other.
 enum class Arrangement { apart, intersecting, first_is_inside, second_is_inside };

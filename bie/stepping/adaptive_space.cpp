@@ -42,12 +42,16 @@ bool Evolution::resolves(const Resolution& resolution, std::size_t a) const {
   return !adapts() || order(a) >= setup_.settings.order || resolution.remainder() <= truncation_target();
 }
 
-/// The least even degree that resolves the smallest gap; 0 for vesicles that neither bound it nor are images of those.
+SmallestGap Evolution::smallest_gap(const State& state) const {
+  return find_smallest_gap(state, discretisation_, setup_.model.wall, setup_.control.tolerance);
+}
+
+/// The least even degree that resolves the gaps about a vesicle; 0 with a fixed degree.
 int Evolution::order_of_gap(const SmallestGap& gap, std::size_t a) const {
-  const Exchange& exchange = setup_.symmetry.exchange;
-  const std::size_t original = exchange.original(a);
-  if (!adapts() || (original != exchange.original(gap.first) && original != exchange.original(gap.second))) return 0;
-  return std::min(setup_.settings.order, 2 * static_cast<int>(std::ceil(std::min(gap.degree(), 1e3) / 2.0)));
+  if (!adapts()) return 0;
+  // The degree of an image is that of its original, whatever the rounding.
+  const double degree = std::min(gap.degrees[setup_.symmetry.exchange.original(a)], 1e3);
+  return std::min(setup_.settings.order, 2 * static_cast<int>(std::ceil(degree / 2.0)));
 }
 
 int Evolution::raised_order(const Resolution& resolution, std::size_t a) const {
@@ -69,7 +73,7 @@ void Evolution::raise_order(std::size_t a, const Resolution& reached, int enough
 /// @returns whether any degree was too low
 bool Evolution::raise_orders_for(const StepAttempt& attempt, std::vector<bool>& raised) {
   if (!adapts()) return false;
-  const SmallestGap gap = find_smallest_gap(attempt.state, discretisation_, setup_.model.wall);
+  const SmallestGap gap = smallest_gap(attempt.state);
   bool any = false;
   for (std::size_t a = 0; a < raised.size(); ++a) {
     if (raised[a] || setup_.symmetry.exchange.is_image(a) || order(a) >= setup_.settings.order) continue;

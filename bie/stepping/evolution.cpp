@@ -61,7 +61,7 @@ Evolution::Evolution(EvolutionSetup setup, const std::vector<StartMembrane>& sta
     start_at(orders, start);
     // The area, which is the scale, and V_m are available only now.
     resolved = true;
-    const SmallestGap gap = adapts() ? find_smallest_gap(state_, discretisation_, setup_.model.wall) : SmallestGap{};
+    const SmallestGap gap = smallest_gap(state_);
     for (std::size_t a = 0; a < orders.size(); ++a) {
       const Resolution found = resolution(state_, a);
       const int of_gap = order_of_gap(gap, a);
@@ -175,7 +175,7 @@ bool refine_quadrature(State& state, Discretisation& discretisation, const Evalu
 /// Makes this the state, with a sufficient quadrature. @throws ConvergenceError; the former state is then kept
 void Evolution::arrive(State state) {
   const bool has_moved = setup_.model.mobile || evaluation_.vesicles.empty();
-  const SmallestGap gap = has_moved ? find_smallest_gap(state, discretisation_, setup_.model.wall) : gap_;
+  const SmallestGap gap = has_moved ? smallest_gap(state) : gap_;
   require_gap(gap, gap_, grid_spacing(state), setup_.frame, setup_.names);
   Discretisation discretisation = discretisation_;
   const auto evaluated = [&](const Evaluation* previous, Limit limit) {
@@ -213,8 +213,7 @@ std::vector<Evolution::DenseOutput> Evolution::evaluate_dense_output(const std::
         const State& state = states[static_cast<std::size_t>(i)];
         DenseOutput& at = output[static_cast<std::size_t>(i)];
         Evaluation evaluation = evaluate(setup_.model, discretisation_, state, instruments, &evaluation_);
-        at = {state, without_operators(std::move(evaluation)),
-              find_smallest_gap(state, discretisation_, setup_.model.wall)};
+        at = {state, without_operators(std::move(evaluation)), smallest_gap(state)};
         for (VesicleState& vesicle : at.state.vesicles) vesicle.recycled = {};
       });
   return output;

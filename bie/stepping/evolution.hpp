@@ -113,6 +113,7 @@ class Evolution {
   [[nodiscard]] StepPlan plan_towards(const EventTimes& events, double dt_next) const;
   void expect_growth(double end);
   [[nodiscard]] bool resolves(const Resolution& resolution, std::size_t vesicle) const;
+  [[nodiscard]] SmallestGap smallest_gap(const State& state) const;
   [[nodiscard]] int order_of_gap(const SmallestGap& gap, std::size_t vesicle) const;
   [[nodiscard]] int raised_order(const Resolution& resolution, std::size_t vesicle) const;
   [[nodiscard]] std::vector<int> starting_orders(const std::vector<StartMembrane>& start) const;

@@ -35,11 +35,20 @@ BOOST_AUTO_TEST_CASE(membranes_that_meet_have_no_gap) {
 
 BOOST_AUTO_TEST_CASE(the_closest_of_several_are_found) {
   const Matrix shape = sphere(8);
-  const ClosestPair closest = closest_pair({shape, translated(shape, {5.0, 0.0, 0.0}),
-                                            translated(shape, {0.0, 9.0, 0.0}), translated(shape, {5.0, 2.3, 0.0})});
-  BOOST_TEST(closest.first == 1);
-  BOOST_TEST(closest.second == 3);
-  BOOST_TEST(std::abs(closest.points.gap - 0.3) < 1e-12);
+  const std::vector<Matrix> shapes{shape, translated(shape, {5.0, 0.0, 0.0}), translated(shape, {0.0, 9.0, 0.0}),
+                                   translated(shape, {5.0, 2.3, 0.0})};
+  const std::vector<ClosePair> closest = close_pairs(shapes, 0.0);
+  BOOST_TEST(closest.size() == 1);
+  BOOST_TEST(closest[0].first == 1);
+  BOOST_TEST(closest[0].second == 3);
+  BOOST_TEST(std::abs(closest[0].points.gap - 0.3) < 1e-12);
+  // The first and the second are 3 apart, the first and the fourth 3.5037.
+  const std::vector<ClosePair> close = close_pairs(shapes, 3.4);
+  BOOST_TEST(close.size() == 2);
+  BOOST_TEST(close[1].first == 0);
+  BOOST_TEST(close[1].second == 1);
+  BOOST_TEST(std::abs(close[1].points.gap - 3.0) < 1e-12);
+  BOOST_TEST(close_pairs({shape}, 3.4).empty());
 }
 
 BOOST_AUTO_TEST_CASE(who_is_where) {

@@ -35,7 +35,7 @@ BOOST_AUTO_TEST_CASE(vesicles_lie_apart_and_within_the_region) {
     BOOST_TEST(std::abs(one.shape.centre[2]) <= 3.5);
   }
   // √(area/4π) of the prolate is above 1.
-  BOOST_TEST(vehd::closest_pair(positions).points.gap >= 0.2);
+  BOOST_TEST(vehd::close_pairs(positions, 0.0).front().points.gap >= 0.2);
   // The effective scene contains the placed vesicles, and placement is reproducible.
   const std::string text = vehd::effective_scene(scene);
   BOOST_TEST(text.find("[suspension]") == std::string::npos);

@@ -7,6 +7,7 @@
 #include "bie/physics/effects/poiseuille_flow.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/time/time_rule.hpp"
+#include "tests/stepping/stimson_jeffery.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -144,6 +145,38 @@ BOOST_AUTO_TEST_CASE(spheres_in_tubes_and_under_gravity_move_as_faxen_and_stokes
       });
       BOOST_TEST(wrong < 1e-9);
     }
+  }
+}
+
+// Of two pairs far from each other, driven together, the small one has the smaller gap and needs the lower degree.
+BOOST_AUTO_TEST_CASE(pairs_in_narrow_gaps_approach_as_exactly_as_the_tolerance) {
+  struct Pair {
+    double radius, gap;  // gap over the radius
+  };
+  const std::vector<Pair> pairs{{1.0, 0.1}, {0.1, 0.5}};
+  Model model = with_vesicles(relaxation_model(0.1), 4);
+  std::vector<StartMembrane> start;
+  for (std::size_t a = 0; a < 4; ++a) {
+    const auto& [radius, gap] = pairs[a / 2];
+    const double side = a % 2 == 0 ? -1.0 : 1.0;
+    const Vector3 centre(a < 2 ? 0.0 : 100.0, 0.0, side * radius * (1.0 + 0.5 * gap));
+    start.push_back({translated(sphere(kDegree, radius), centre)});
+    model.vesicles[a].effects.push_back(std::make_shared<GravityEffect>(GravityParameters{1.0, {0.0, 0.0, -side}}));
+  }
+  for (const double tolerance : {1e-2, 1e-3}) {
+    EvolutionSetup setup{model, {}, {}, {1.0, 1e-9, tolerance}};
+    setup.settings.order = 32;
+    Instruments instruments;
+    Evolution evolution(setup, start, instruments);
+    evolution.evaluate_start();
+    for (std::size_t a = 0; a < 4; ++a) {
+      const auto& [radius, gap] = pairs[a / 2];
+      const double exact = 2.0 / 9.0 * radius * radius / (model.viscosity * stimson_jeffery(gap).opposite);
+      const double found = std::abs(evolution.evaluation().diagnostics.vesicles[a].centroid_velocity_z);
+      BOOST_TEST(std::abs(found / exact - 1.0) < tolerance, "sphere " << a << ": " << found / exact - 1.0);
+    }
+    BOOST_TEST(order_of(evolution.state().vesicles[0].position.rows()) >
+               order_of(evolution.state().vesicles[2].position.rows()));
   }
 }
 

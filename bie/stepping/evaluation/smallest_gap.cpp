@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "bie/potentials/nearest_points.hpp"
 #include "bie/stepping/thresholds.hpp"
@@ -14,35 +15,54 @@ namespace vehd {
 
 namespace {
 
-double radius_of(double area) { return std::sqrt(area / (4.0 * std::numbers::pi)); }
+/// Gaps up to this many radii are searched for the degree that they require: wider ones need none above the lowest.
+constexpr double widest_gap = 2.0;
 
-SmallestGap between_vesicles(const State& state) {
-  if (state.vesicles.size() < 2) return {};
+double radius_of(const VesicleState& vesicle) { return std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi)); }
+
+/// The gaps between close vesicles, and those of all vesicles to the wall.
+std::vector<SmallestGap> all_gaps(const State& state, const Discretisation& discretisation,
+                                  const std::optional<Wall>& wall) {
   std::vector<Matrix> membranes;
-  for (const VesicleState& vesicle : state.vesicles) membranes.push_back(vesicle.position);
-  const auto [first, second, points] = closest_pair(membranes);
-  const double area = std::min(state.vesicles[first].reference_area, state.vesicles[second].reference_area);
-  const double radius = radius_of(area);
-  return {points.gap, points.gap / radius, radius, first, second, 0.5 * (points.on_first + points.on_second)};
+  double largest = 0.0;
+  for (const VesicleState& vesicle : state.vesicles) {
+    membranes.push_back(vesicle.position);
+    largest = std::max(largest, radius_of(vesicle));
+  }
+  std::vector<SmallestGap> gaps;
+  for (const auto& [first, second, points] : close_pairs(membranes, widest_gap * largest)) {
+    const double radius = std::min(radius_of(state.vesicles[first]), radius_of(state.vesicles[second]));
+    const Vector3 middle = 0.5 * (points.on_first + points.on_second);
+    gaps.push_back({points.gap, points.gap / radius, radius, first, second, middle});
+  }
+  for (std::size_t a = 0; wall && a < state.vesicles.size(); ++a) {
+    const auto [distance, place] =
+        nearest_to_wall(*wall, discretisation.vesicle(a).fine_transform(), state.vesicles[a].position);
+    const double radius = radius_of(state.vesicles[a]);
+    gaps.push_back({distance, distance / radius, radius, a, a, place - 0.5 * distance * wall->normal, true});
+  }
+  return gaps;
+}
+
+/// Degree that densities in this gap require: the wall is half way to the image.
+double degree_in(const SmallestGap& gap, double tolerance) {
+  const double between_membranes = gap.to_wall ? 2.0 * gap.relative : gap.relative;
+  return between_membranes > 0.0 ? thresholds::degrees_of_gap(tolerance) / std::sqrt(between_membranes) : 0.0;
 }
 
 }  // namespace
 
-double SmallestGap::degree() const {
-  const double between_membranes = to_wall ? 2.0 * relative : relative;
-  return relative > 0.0 ? thresholds::degrees_of_gap / std::sqrt(between_membranes) : 0.0;
-}
+double SmallestGap::degree() const { return degrees.empty() ? 0.0 : std::ranges::max(degrees); }
 
-SmallestGap find_smallest_gap(const State& state, const Discretisation& discretisation,
-                              const std::optional<Wall>& wall) {
-  SmallestGap smallest = between_vesicles(state);
-  for (std::size_t a = 0; wall && a < state.vesicles.size(); ++a) {
-    const auto [distance, place] =
-        nearest_to_wall(*wall, discretisation.vesicle(a).fine_transform(), state.vesicles[a].position);
-    if (distance >= smallest.distance) continue;
-    const double radius = radius_of(state.vesicles[a].reference_area);
-    smallest = {distance, distance / radius, radius, a, a, place - 0.5 * distance * wall->normal, true};
+SmallestGap find_smallest_gap(const State& state, const Discretisation& discretisation, const std::optional<Wall>& wall,
+                              double tolerance) {
+  SmallestGap smallest;
+  std::vector<double> degrees(state.vesicles.size(), 0.0);
+  for (const SmallestGap& gap : all_gaps(state, discretisation, wall)) {
+    if (gap.distance < smallest.distance) smallest = gap;
+    for (const std::size_t a : {gap.first, gap.second}) degrees[a] = std::max(degrees[a], degree_in(gap, tolerance));
   }
+  smallest.degrees = std::move(degrees);
   return smallest;
 }
 

@@ -19,17 +19,19 @@ struct SmallestGap {
   std::size_t first = 0, second = 0;                          ///< indices of both; equal for a gap to a wall
   Vector3 place = Vector3::Zero();                            ///< midpoint of the gap
   bool to_wall = false;                                       ///< the second is a wall
+  /// Of each vesicle: degree that its densities in all gaps to neighbours and wall require,
+  /// degrees_of_gap/√(gap over radius), the gap to a wall being half of that to the image; 0 without neighbours.
+  std::vector<double> degrees{};
 
-  /// Degree that densities in this gap require, about 4/√(gap over radius), the gap to a wall being half of that to
-  /// the image; 0 for a single vesicle in unbounded fluid.
-  [[nodiscard]] double degree() const;
+  [[nodiscard]] double degree() const;  ///< the largest of the degrees; 0 for a single vesicle in unbounded fluid
 };
 
-/// The smallest gap between the vesicles of a state, or between one and the wall.
+/// The smallest gap between the vesicles of a state, or between one and the wall, and the degrees of all gaps.
 /// @param discretisation  of the state
+/// @param tolerance       of the run; 0 with a fixed degree
 /// Accuracy: that of nearest_points and nearest_to_wall
-SmallestGap find_smallest_gap(const State& state, const Discretisation& discretisation,
-                              const std::optional<Wall>& wall);
+SmallestGap find_smallest_gap(const State& state, const Discretisation& discretisation, const std::optional<Wall>& wall,
+                              double tolerance);
 
 /// Rejects a step that brings two vesicles, or one and a wall, into contact, or so much nearer at once that they could
 /// have passed through each other.
