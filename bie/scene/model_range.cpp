@@ -31,10 +31,10 @@ constexpr double most_heating = 1.0;
 constexpr double density = 1e3, heat_capacity = 4.18e6, diffusivity = 2e-9;
 constexpr double room_temperature = 298.0;
 
-double largest_factor(const WaveformScene& waveform) {
-  if (waveform.kind != WaveformKind::table) return 1.0;
+double largest_factor(const std::optional<WaveformScene>& waveform) {
+  if (!waveform || waveform->kind != WaveformKind::table) return 1.0;
   double most = 0.0;
-  for (const double value : waveform.values) most = std::max(most, std::abs(value));
+  for (const double value : waveform->values) most = std::max(most, std::abs(value));
   return most;
 }
 
@@ -50,21 +50,40 @@ double shortest_time(const WaveformScene& waveform) {
   return shortest;
 }
 
-/// ∫ factor² dt from 0 to the end.
-double exposure(const std::optional<WaveformScene>& waveform, double end) {
-  if (!waveform || waveform->kind == WaveformKind::dc) return end;
-  if (waveform->kind == WaveformKind::ac) return 0.5 * end;
-  const double in_pulse = std::clamp(end - waveform->start, 0.0, waveform->duration);
-  if (waveform->kind == WaveformKind::burst) return 0.5 * in_pulse;
-  if (waveform->kind == WaveformKind::pulse) return in_pulse;
-  if (waveform->kind == WaveformKind::pulse_train) return end * waveform->duration / waveform->period;
+/// ∫ factor² dt between two times.
+double exposure(const std::optional<WaveformScene>& waveform, double from, double to) {
+  const auto within = [&](double first, double last) {
+    return std::max(0.0, std::min(last, to) - std::max(first, from));
+  };
+  if (!waveform) return to - from;
+  const double start = waveform->start, duration = waveform->duration;
+  switch (waveform->kind) {
+    case WaveformKind::dc:
+      return to - from;
+    case WaveformKind::ac:
+      return 0.5 * (to - from);
+    case WaveformKind::burst:
+      return 0.5 * within(start, start + duration);
+    case WaveformKind::pulse:
+      return within(start, start + duration);
+    case WaveformKind::pulse_train: {
+      const auto in_pulses_until = [&](double time) {
+        const double since = std::max(0.0, time - start), n_pulses = std::floor(since / waveform->period);
+        return n_pulses * duration + std::min(duration, since - n_pulses * waveform->period);
+      };
+      return in_pulses_until(to) - in_pulses_until(from);
+    }
+    case WaveformKind::table:
+      break;
+  }
   const std::vector<double>&times = waveform->times, &values = waveform->values;
-  double sum = 0.0;
+  double sum = within(from, times.front()) * values.front() * values.front() +
+               within(times.back(), to) * values.back() * values.back();
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double a = values[i - 1], b = values[i];
-    sum += std::max(0.0, std::min(times[i], end) - std::max(times[i - 1], 0.0)) * (a * a + a * b + b * b) / 3.0;
+    sum += within(times[i - 1], times[i]) * (a * a + a * b + b * b) / 3.0;
   }
-  return sum + std::max(0.0, end - times.back()) * values.back() * values.back();
+  return sum;
 }
 
 /// Compares one vesicle with the limits of the model.
@@ -72,14 +91,14 @@ class ModelRangeChecks {
  public:
   explicit ModelRangeChecks(const Scene& scene) : scene_(scene), groups_(dimensionless_groups(scene)) {
     if (!scene.electric) return;
-    const auto& waveform = scene.electric->waveform;
     unit_field_ = vector_of(scene.electric->field).norm();
-    field_ = unit_field_ * (waveform ? largest_factor(*waveform) : 1.0);
+    field_ = unit_field_ * largest_factor(scene.electric->waveform);
   }
 
   /// Estimates for a sphere: V_m = 3/2 E a once charged, and a tension that balances the stress of field and flow.
-  [[nodiscard]] LargestValues expected() const {
-    LargestValues result;
+  [[nodiscard]] ReachedValues expected() const {
+    ReachedValues result;
+    result.end_time = scene_.numerics.end_time;
     result.mean_tension = scene_.fluid.viscosity * shear_rate() * radius();
     if (field_ > 0.0) {
       const ElectricScene& electric = *scene_.electric;
@@ -94,10 +113,10 @@ class ModelRangeChecks {
     return result;
   }
 
-  std::vector<ModelWarning> warnings_at(const LargestValues& reached) {
+  std::vector<ModelWarning> warnings_at(const ReachedValues& reached) {
     if (!scene_.poration) judge_potential(reached.potential);
     if (scene_.membrane.mobile) judge_mechanics(reached);
-    if (field_ > 0.0) judge_electrolyte();
+    if (field_ > 0.0) judge_electrolyte(reached);
     return std::move(warnings_);
   }
 
@@ -113,13 +132,13 @@ class ModelRangeChecks {
                         si_number(volts, "potential")));
   }
 
-  void judge_mechanics(const LargestValues& reached) {
+  void judge_mechanics(const ReachedValues& reached) {
     const MembraneScene& membrane = scene_.membrane;
     const double tension = si(reached.tension, "force/length");
     const bool is_watched = scene_.poration && scene_.poration->lysis_tension;
     warn_if(tension > lysis_tension && !is_watched, "lysis", tension, lysis_tension,
             fmt::format("the tension reaches {}; membranes tear at 5 to 10 mN/m", si_number(tension, "force/length")));
-    const bool acts = field_ > 0.0 || shear_rate() > 0.0;
+    const bool acts = field_ > 0.0 || shear_rate() > 0.0 || scene_.gravity;
     if (membrane.inextensible && !membrane.undulations && acts) judge_constant_area(reached.mean_tension);
     judge_inertia();
   }
@@ -159,7 +178,7 @@ class ModelRangeChecks {
                         reynolds));
   }
 
-  void judge_electrolyte() {
+  void judge_electrolyte(const ReachedValues& reached) {
     const ElectricScene& electric = *scene_.electric;
     if (!electric.displacement_current) {
       double fastest = group("t_m");
@@ -186,7 +205,7 @@ class ModelRangeChecks {
                         "C_m by {:.0f} %",
                         si_number(longest, "length"), 100.0 * share / (1.0 + share)));
     const double power = std::max(electric.conductivity_in, electric.conductivity_out) * unit_field_ * unit_field_ *
-                         exposure(electric.waveform, scene_.numerics.end_time);
+                         exposure(electric.waveform, reached.start_time, reached.end_time);
     const double heating = si(power, "force/area") / heat_capacity;
     warn_if(heating > most_heating, "heating", heating, most_heating,
             fmt::format("without cooling the current heats the fluid by {:.2g} K", heating));
@@ -200,10 +219,19 @@ class ModelRangeChecks {
       return 1.0 / std::hypot(1.0, 2.0 * std::numbers::pi * electric.waveform->frequency * charging);
     }
     if (electric.initial_potential == InitialPotential::steady) return 1.0;
-    const bool pulses = electric.waveform && electric.waveform->kind != WaveformKind::dc &&
-                        electric.waveform->kind != WaveformKind::table;
-    const double time = pulses ? std::min(electric.waveform->duration, end) : end;
-    return std::isnan(charging) ? 0.0 : -std::expm1(-time / charging);
+    if (std::isnan(charging)) return 0.0;
+    const auto share_after = [charging](double time) { return -std::expm1(-time / charging); };
+    if (!electric.waveform) return share_after(end);
+    const double in_pulse = std::min(electric.waveform->duration, end);
+    switch (electric.waveform->kind) {
+      case WaveformKind::pulse:
+        return share_after(in_pulse);
+      case WaveformKind::pulse_train:
+        // At the end of a pulse after many of them.
+        return share_after(in_pulse) / share_after(electric.waveform->period);
+      default:
+        return share_after(end);
+    }
   }
 
   /// Value of the group with this symbol; NaN if the scene has none.
@@ -212,7 +240,10 @@ class ModelRangeChecks {
     return found == groups_.end() ? std::numeric_limits<double>::quiet_NaN() : found->value;
   }
   [[nodiscard]] double radius() const { return group("a"); }
-  [[nodiscard]] double shear_rate() const { return std::fmax(0.0, 1.0 / group("t_γ")); }
+  /// Largest rate of the flow.
+  [[nodiscard]] double shear_rate() const {
+    return scene_.flow ? std::fmax(0.0, 1.0 / group("t_γ")) * largest_factor(scene_.flow->waveform) : 0.0;
+  }
   /// Value in SI units; NaN without a scale, which exceeds no limit.
   [[nodiscard]] double si(double value, std::string_view dimension) const {
     return value * si_scale(scene_.units, dimension);
@@ -227,7 +258,7 @@ class ModelRangeChecks {
 
 }  // namespace
 
-std::vector<ModelWarning> model_warnings(const Scene& scene, const std::optional<LargestValues>& reached) {
+std::vector<ModelWarning> model_warnings(const Scene& scene, const std::optional<ReachedValues>& reached) {
   std::vector<ModelWarning> all;
   for (const Scene& one : each_alone(scene)) {
     ModelRangeChecks checks(one);

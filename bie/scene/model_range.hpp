@@ -17,17 +17,18 @@ struct ModelWarning {
   std::string text;
 };
 
-/// Largest values of a run, in units of the scene.
-struct LargestValues {
-  double potential = 0.0;     ///< |V_m|
-  double tension = 0.0;       ///< λ
-  double mean_tension = 0.0;  ///< ∫λ dA/A
+/// What a run reached, in units of the scene.
+struct ReachedValues {
+  double potential = 0.0;                   ///< largest |V_m|
+  double tension = 0.0;                     ///< largest λ
+  double mean_tension = 0.0;                ///< largest ∫λ dA/A
+  double start_time = 0.0, end_time = 0.0;  ///< times of the first and the last row of the history
 };
 
 /// All quantities beyond their limits, each once, for the vesicle that exceeds the limit most. Limits in SI units are
 /// checked only if the scene has [units].
 /// @param reached  values of the run; absent: estimated from a sphere of the same area
 /// @throws InputError if the shape file cannot be used
-std::vector<ModelWarning> model_warnings(const Scene& scene, const std::optional<LargestValues>& reached = {});
+std::vector<ModelWarning> model_warnings(const Scene& scene, const std::optional<ReachedValues>& reached = {});
 
 }  // namespace vehd

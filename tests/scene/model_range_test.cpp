@@ -11,7 +11,7 @@
 
 namespace {
 
-using vehd::LargestValues;
+using vehd::ReachedValues;
 
 /// A nearly spherical giant vesicle of radius 10 um in a dc field for a millisecond, within the range of the model.
 std::string quiet_scene(const std::string& more = {}) {
@@ -32,7 +32,7 @@ std::string replaced(std::string text, const std::string& old, const std::string
 
 /// Warnings by name.
 std::map<std::string, vehd::ModelWarning> warnings_of(const std::string& text,
-                                                      const std::optional<LargestValues>& reached = {}) {
+                                                      const std::optional<ReachedValues>& reached = {}) {
   std::map<std::string, vehd::ModelWarning> result;
   for (const vehd::ModelWarning& warning : vehd::model_warnings(parsed(text), reached)) {
     result.emplace(warning.name, warning);
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(poration_follows_from_the_field_unless_the_scene_has_it) {
   const std::string criterion = "[poration]\nmodel = \"criterion\"\nthreshold_Vm = \"1 V\"\n";
   BOOST_TEST(!warnings_of(strong + criterion).contains("poration"));
   // The values reached in the run take precedence once they are available.
-  BOOST_TEST(!warnings_of(strong, LargestValues{}).contains("poration"));
+  BOOST_TEST(!warnings_of(strong, ReachedValues{}).contains("poration"));
 }
 
 BOOST_AUTO_TEST_CASE(an_alternating_field_charges_less) {
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(an_alternating_field_charges_less) {
 
 BOOST_AUTO_TEST_CASE(lysis_is_judged_by_the_tension_of_the_run) {
   const vehd::Scene scene = parsed(quiet_scene());
-  const LargestValues reached{0.0, scaled(scene, 6e-3, 1, -1, 1), 0.0};
+  const ReachedValues reached{0.0, scaled(scene, 6e-3, 1, -1, 1), 0.0};
   const auto found = warnings_of(quiet_scene(), reached);
   BOOST_TEST(found.size() == 1U);
   BOOST_TEST(found.at("lysis").value == 6e-3, boost::test_tools::tolerance(rounding));
@@ -149,15 +149,50 @@ BOOST_AUTO_TEST_CASE(heating_counts_how_long_the_field_is_on) {
   BOOST_TEST(with("kind = \"pulse\"\nduration = \"0.2 s\"\n") == 0.0);
   BOOST_TEST(with("kind = \"pulse_train\"\nduration = \"70 ms\"\nperiod = \"100 ms\"\n") == 0.7,
              boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(with("kind = \"pulse\"\nstart = \"-1 s\"\nduration = \"1.6 s\"\n") == 0.6,
+             boost::test_tools::tolerance(1e-9));
+  // The first pulse alone.
+  BOOST_TEST(with("kind = \"pulse_train\"\nduration = \"0.6 s\"\nperiod = \"10 s\"\n") == 0.6,
+             boost::test_tools::tolerance(1e-9));
+  // A table is constant before its first time.
+  BOOST_TEST(with("kind = \"table\"\ntimes = [\"0.8 s\", \"1 s\"]\nvalues = [1, 1]\n") == 1.0,
+             boost::test_tools::tolerance(1e-9));
   // ∫ (2t)² dt = 4/3 of a second up to the end at t = 1.
   BOOST_TEST(with("kind = \"table\"\ntimes = [0, \"1 s\"]\nvalues = [0, 2]\n") == 4.0 / 3.0,
              boost::test_tools::tolerance(1e-9));
+}
+
+// A run that goes on from another one, or ends at rest, is judged by its own times.
+BOOST_AUTO_TEST_CASE(heating_counts_the_times_that_a_run_has_reached) {
+  const std::string hours = replaced(quiet_scene(), "\"1 ms\"", "\"1 h\"");
+  const double time_unit = *parsed(hours).units->time;
+  const auto heating = [&](double start, double end) {
+    const auto found = warnings_of(hours, ReachedValues{0.0, 0.0, 0.0, start / time_unit, end / time_unit});
+    return found.contains("heating") ? found.at("heating").value * 4.18e6 / 2e7 : 0.0;
+  };
+  BOOST_TEST(heating(0.0, 1.0) == 1.0, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(heating(99.0, 101.0) == 2.0, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(heating(99.0, 99.1) == 0.0);
+}
+
+// Pulses that follow each other sooner than the membrane discharges charge it as a whole.
+BOOST_AUTO_TEST_CASE(poration_counts_all_pulses_of_a_train) {
+  const std::string strong = replaced(quiet_scene(), "10 kV/m", "100 kV/m");
+  const auto with = [&](const std::string& waveform) {
+    return warnings_of(strong + "[electric.waveform]\n" + waveform).contains("poration");
+  };
+  BOOST_TEST(!with("kind = \"pulse\"\nduration = \"0.2 us\"\n"));
+  BOOST_TEST(!with("kind = \"pulse_train\"\nduration = \"0.2 us\"\nperiod = \"1 ms\"\n"));
+  BOOST_TEST(with("kind = \"pulse_train\"\nduration = \"0.2 us\"\nperiod = \"0.22 us\"\n"));
 }
 
 BOOST_AUTO_TEST_CASE(inertia_is_judged_by_the_rate_of_flow_and_field) {
   const std::string shear = quiet_scene("[flow]\nkind = \"shear\"\nrate = \"2 1/ms\"\n");
   const double by_field = 9.0 * 80 * 8.8541878188e-12 * 1e8 / (55.0 * 1e-3);
   BOOST_TEST(warnings_of(shear).at("inertia").value == 1e3 * 1e-10 / 1e-3 * (2000.0 + by_field),
+             boost::test_tools::tolerance(1e-6));
+  const std::string table = "[flow.waveform]\nkind = \"table\"\ntimes = [0, \"1 ms\"]\nvalues = [1, -3]\n";
+  BOOST_TEST(warnings_of(shear + table).at("inertia").value == 1e3 * 1e-10 / 1e-3 * (6000.0 + by_field),
              boost::test_tools::tolerance(1e-6));
 }
 
@@ -169,11 +204,11 @@ BOOST_AUTO_TEST_CASE(constant_area_is_a_limit_where_undulations_would_give_some)
   const double strain =
       1.380649e-23 * 298 / (8 * std::numbers::pi * rigidity) * std::log1p(0.1 * tension * area / rigidity);
   const double excess = 4 * std::numbers::pi * (std::pow(0.99, -2.0 / 3.0) - 1);
-  const auto found = warnings_of(off, LargestValues{0.0, 0.0, scaled(scene, tension, 1, -1, 1)});
+  const auto found = warnings_of(off, ReachedValues{0.0, 0.0, scaled(scene, tension, 1, -1, 1)});
   BOOST_TEST(found.at("undulations").value == strain * (4 * std::numbers::pi + excess),
              boost::test_tools::tolerance(1e-6));
   BOOST_TEST(found.at("undulations").limit == 0.1 * excess, boost::test_tools::tolerance(1e-6));
-  BOOST_TEST(!warnings_of(off, LargestValues{0.0, 0.0, -1.0}).contains("undulations"));
+  BOOST_TEST(!warnings_of(off, ReachedValues{0.0, 0.0, -1.0}).contains("undulations"));
   // The field by itself is expected to cause such a tension.
   BOOST_TEST(warnings_of(off).contains("undulations"));
   BOOST_TEST(!warnings_of(replaced(off, "reduced_volume = 0.99", "reduced_volume = 0.6")).contains("undulations"));
@@ -183,7 +218,10 @@ BOOST_AUTO_TEST_CASE(an_exact_sphere_under_a_force_keeps_its_shape) {
   const std::string sphere =
       replaced(with_appended("[flow]\nkind = \"shear\"\nrate = 1\n"), "1.0, 1.0, 2.0", "1, 1, 1");
   BOOST_TEST(warnings_of(sphere).contains("exact_sphere"));
-  BOOST_TEST(warnings_of(replaced(sphere, "rate = 1", "rate = 0")).empty());
+  const std::string resting = replaced(sphere, "rate = 1", "rate = 0");
+  BOOST_TEST(warnings_of(resting).empty());
+  BOOST_TEST(warnings_of(resting + "[fluid]\ndensity_difference = 1\n[gravity]\nacceleration = [0, 0, -1]\n")
+                 .contains("exact_sphere"));
   BOOST_TEST(
       warnings_of(sphere + "[membrane]\nbending_modulus = 1\nundulations = true\nstretching_modulus = 1\n").empty());
 }
