@@ -219,7 +219,8 @@ std::vector<HistoryColumn> mode_columns() {
 
 /// Columns that vanish without a linear flow with vorticity.
 std::vector<HistoryColumn> turning_columns() {
-  return {{"tumbling_frequency", "1/time", of_vesicle<&D::tumbling_frequency>},
+  return {{"tumbling_angle_deg", "1", of_vesicle<&D::tumbling_angle_deg>},
+          {"tumbling_frequency", "1/time", of_vesicle<&D::tumbling_frequency>},
           {"treading_frequency", "1/time", of_vesicle<&D::treading_frequency>}};
 }
 

@@ -47,8 +47,10 @@ nlohmann::json poration_of(const HistoryTable& history) {
   return json;
 }
 
-/// Largest values in units of the scene, whatever the units of the history.
-LargestValues largest_values(const HistoryTable& history, const Scene& scene) {
+double last(const std::vector<double>& values) { return values.empty() ? 0.0 : values.back(); }
+
+/// In units of the scene, whatever the units of the history.
+ReachedValues reached_values(const HistoryTable& history, const Scene& scene) {
   const OutputUnits units = history.units(scene.units);
   const auto most = [&](const char* column, const char* dimension) {
     double largest = 0.0;
@@ -57,10 +59,11 @@ LargestValues largest_values(const HistoryTable& history, const Scene& scene) {
   };
   double area = 0.0;
   for (const Scene& one : each_alone(scene)) area += size_of(initial_position(one)).area;
-  return {most("Vm_max", "potential"), most("tension_max", "force/length"), most("tension_integral", "energy") / area};
+  const auto& times = history.column("time");
+  const double unit = units.of("time").factor;
+  return {most("Vm_max", "potential"), most("tension_max", "force/length"), most("tension_integral", "energy") / area,
+          times.empty() ? 0.0 : times.front() / unit, last(times) / unit};
 }
-
-double last(const std::vector<double>& values) { return values.empty() ? 0.0 : values.back(); }
 
 }  // namespace
 
@@ -73,7 +76,7 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
   json["completed"] = outcome.completed;
   json["verdict"] = verdict_of(history, trust_demands(scene), outcome.reason);
   if (!outcome.completed) json["reason"] = outcome.reason;
-  json["warnings"] = json_of(model_warnings(scene, largest_values(history, scene)));
+  json["warnings"] = json_of(model_warnings(scene, reached_values(history, scene)));
   json["changes"] = changes_in(history.units(scene.units).of("time"), checkpoint.changes);
   if (checkpoint.origin) {
     const State& state = checkpoint.origin->state;
@@ -114,13 +117,13 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
 }
 
 std::string regime_of(const HistoryTable& history, const OutputUnits& units) {
-  if (!history.has("treading_frequency") || history.n_rows() < 2) return "";
+  if (!history.has("tumbling_angle_deg") || history.n_rows() < 2) return "";
   if (history.largest_magnitude("tumbling_frequency") == 0.0 &&
       history.largest_magnitude("treading_frequency") == 0.0) {
     return "";
   }
   const auto& times = history.column("time");
-  const auto& inclination = history.column("inclination_deg");
+  const auto& angle = history.column("tumbling_angle_deg");
   const auto& treading = history.column("treading_frequency");
   const double middle = 0.5 * (times.front() + times.back());
   const double revolution = units.of("time").factor * units.of("1/time").factor;
@@ -129,7 +132,7 @@ std::string regime_of(const HistoryTable& history, const OutputUnits& units) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (times[i - 1] < middle) continue;
     trodden += 0.5 * (times[i] - times[i - 1]) * (treading[i] + treading[i - 1]) / revolution;
-    const double turn = std::remainder(inclination[i] - inclination[i - 1], 180.0);
+    const double turn = std::remainder(angle[i] - angle[i - 1], 180.0);
     turned += turn;
     least = std::min(least, turned);
     most = std::max(most, turned);

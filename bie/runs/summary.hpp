@@ -17,7 +17,7 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
 nlohmann::json json_of(const std::vector<ModelWarning>& warnings);
 
 /// Motion in shear at the end of the history of one vesicle, from the second half of its times:
-///   "tumbling"       the inclination ψ changes by half a revolution or more
+///   "tumbling"       the tumbling angle ψ changes by half a revolution or more
 ///   "tank-treading"  ψ stays within a degree while the membrane treads a quarter of a revolution or more
 ///   "trembling"      ψ swings back and forth by more than a degree
 ///   "unsettled"      none of these, for instance because the run is too short

@@ -46,7 +46,7 @@ BOOST_FIXTURE_TEST_CASE(history_has_the_stable_columns_and_lands_on_snapshot_tim
              "stress_electric_xy,stress_electric_xz,stress_electric_yz,stress_viscosity_xx,stress_viscosity_yy,"
              "stress_viscosity_zz,stress_viscosity_xy,stress_viscosity_xz,stress_viscosity_yz,wrinkle_growth,"
              "shape_rate,shape_mode_2,shape_mode_3,shape_mode_4,shape_mode_5,shape_mode_6,normal_stress_1,"
-             "normal_stress_2,tumbling_frequency,treading_frequency,checksum");
+             "normal_stress_2,tumbling_angle_deg,tumbling_frequency,treading_frequency,checksum");
   const vehd::HistoryTable history(output + "/history.csv");
   BOOST_TEST(history.column("time").front() == 0.0);
   BOOST_TEST(history.column("time").back() == 3.0);

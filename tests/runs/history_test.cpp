@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(the_regime_is_that_of_the_second_half) {
     for (int i = 0; i <= 200; ++i) {
       vehd::HistoryRow row = row_at(0.1 * i);
       // In (−90, 90], the range for an axis.
-      row.diagnostics.vesicles[0].inclination_deg = 360.0 * std::remainder(turns(row.time), 0.5);
+      row.diagnostics.vesicles[0].tumbling_angle_deg = 360.0 * std::remainder(turns(row.time), 0.5);
       row.diagnostics.vesicles[0].treading_frequency = treading;
       table.append(row);
     }

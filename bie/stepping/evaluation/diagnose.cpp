@@ -154,6 +154,7 @@ void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTra
                    std::sqrt(d.area / (4.0 * std::numbers::pi));
     if (!vorticity.isZero(0.0)) {
       const Turning turns = turning(s, moments, relative, vorticity);
+      d.tumbling_angle_deg = turns.angle * 180.0 / std::numbers::pi;
       d.tumbling_frequency = turns.shape;
       d.treading_frequency = turns.membrane;
     }

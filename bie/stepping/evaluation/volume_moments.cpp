@@ -54,8 +54,9 @@ Vector3 centroid_velocity(const Surface& s, const VolumeMoments& moments, const 
 Turning turning(const Surface& s, const VolumeMoments& moments, const Matrix& relative_velocity, const Vector3& axis) {
   // Two directions that form a right-handed system with the axis.
   Eigen::Matrix<double, 3, 2> across;
-  across.col(0) = axis.unitOrthogonal();
-  across.col(1) = axis.normalized().cross(across.col(0));
+  const bool along_x = std::abs(axis.x()) > 0.9 * axis.norm();
+  across.col(1) = axis.cross(along_x ? Vector3::UnitZ() : Vector3::UnitX()).normalized();
+  across.col(0) = across.col(1).cross(axis.normalized());
   const Matrix y = (s.position.rowwise() - moments.centroid.transpose()) * across;
 
   // tan 2ψ = 2 G₁₂/(G₁₁ − G₂₂) of the second moments G of the volume, dG/dt = ∫ (v·n) y yᵀ dA.
@@ -67,9 +68,9 @@ Turning turning(const Surface& s, const VolumeMoments& moments, const Matrix& re
   const double difference = spread(0, 0) - spread(1, 1), product = 2.0 * spread(0, 1);
   const double length = std::hypot(difference, product);
   constexpr double rounding = 1e-9;
-  const double turned = length <= rounding * spread.trace()
-                            ? 0.0
-                            : (difference * rate(0, 1) - product * 0.5 * (rate(0, 0) - rate(1, 1))) / (length * length);
+  const bool is_round = length <= rounding * spread.trace();
+  const double turned =
+      is_round ? 0.0 : (difference * rate(0, 1) - product * 0.5 * (rate(0, 0) - rate(1, 1))) / (length * length);
 
   const Matrix weighted = s.quadrature.asDiagonal() * y;
   Eigen::Matrix2d fit = ((relative_velocity * across).transpose() * weighted) * (y.transpose() * weighted).inverse();
@@ -78,7 +79,7 @@ Turning turning(const Surface& s, const VolumeMoments& moments, const Matrix& re
   const double square = fit.determinant() - 0.25 * fit.trace() * fit.trace();
   const double around = std::copysign(std::sqrt(std::max(square, 0.0)), fit(1, 0) - fit(0, 1));
   constexpr double whole = 2.0 * std::numbers::pi;
-  return {turned / whole, around / whole};
+  return {is_round ? 0.0 : 0.5 * std::atan2(product, difference), turned / whole, around / whole};
 }
 
 std::array<double, 5> shape_modes(const Surface& s, const Vector3& centre, const Vector3& axis) {

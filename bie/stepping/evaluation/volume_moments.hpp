@@ -30,18 +30,20 @@ VolumeMoments volume_moments(const Surface& surface);
 /// Source: Reynolds' transport theorem
 Vector3 centroid_velocity(const Surface& surface, const VolumeMoments& moments, const Matrix& velocity);
 
-/// Rotation of a vesicle about an axis, in revolutions per time, positive by the right-hand rule.
+/// Rotation of a vesicle about an axis, positive by the right-hand rule; frequencies in revolutions per time.
 struct Turning {
-  double shape = 0.0;     ///< of its long axis across the axis: tumbling
-  double membrane = 0.0;  ///< of material points about the shape: tank-treading
+  double angle = 0.0;     ///< ψ of its long axis across the axis, in (−π/2, π/2]
+  double shape = 0.0;     ///< frequency of its long axis: tumbling
+  double membrane = 0.0;  ///< frequency of material points about the shape: tank-treading
 };
 
-/// Tumbling and tank-treading frequencies about an axis. With ψ the angle of the longer principal axis of the second
-/// moments across it, and A the best linear fit v − v_c ≈ A (x − centroid) over the surface,
+/// Angle, tumbling and tank-treading frequencies about an axis. With ψ the angle of the longer principal axis of the
+/// second moments across it, from +x (or +z for an axis nearly along x) projected onto the plane across the axis, and A
+/// the best linear fit v − v_c ≈ A (x − centroid) over the surface,
 ///   tumbling dψ/dt/(2π), tank-treading √(det A′ − (tr A′/2)²)/(2π) with the sign of the rotation in A′,
 /// A′ = A minus the rotation dψ/dt. Exact if v is linear in x, as in the flow of an ellipsoid whose points move on
-/// ellipses. A shape that is round about the axis does not tumble; tank-treading is 0 if A′ deforms faster than it
-/// turns.
+/// ellipses. A shape that is round about the axis has ψ = 0 and does not tumble; tank-treading is 0 if A′ deforms
+/// faster than it turns.
 /// @param relative_velocity  of the points to the centroid, v − v_c, [n_points x 3]
 /// @param axis               of any length but zero
 /// Accuracy: spectral; for turning ellipsoids whose membrane circulates to 1e-10

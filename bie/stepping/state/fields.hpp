@@ -80,7 +80,8 @@ struct VesicleDiagnostics {
   double aspect_ratio = 0;           ///< longest over shortest axis of the gyration tensor
   double aspect_ratio_field = 0;     ///< of the gyration tensor along the field over across, 0 without a field
   double shape_rate = 0;             ///< max |(v − v_c)·n| over √(A/4π), v_c the velocity of the centroid
-  double tumbling_frequency = 0, treading_frequency = 0;  ///< about the vorticity of the flow, 0 without one: turning()
+  /// About the vorticity of the flow, 0 without one: turning().
+  double tumbling_angle_deg = 0, tumbling_frequency = 0, treading_frequency = 0;
   std::array<double, 5> shape_modes{};  ///< s_2 … s_6 about the field, 0 without one, see volume_moments.hpp
   double Vm_pole_plus = 0,
          Vm_pole_minus = 0;  ///< where the line along the field leaves the membrane, 0 without a field

@@ -129,6 +129,11 @@ BOOST_AUTO_TEST_CASE(an_ellipsoid_tumbles_and_its_membrane_treads) {
     for (const double side : {2.0, -1.0}) {
       const Turning turns = turning(s, moments, relative, side * axis);
       const double sign = side > 0.0 ? 1.0 : -1.0;
+      const Vector3 across = (side * axis).cross(Vector3::UnitX()).normalized();
+      const Vector3 along = across.cross(side > 0.0 ? axis : Vector3(-axis));
+      const Vector3 longer = kTurn.col(kAxes[0] > kAxes[1] ? 0 : 1);
+      BOOST_TEST(std::abs(std::abs(longer.dot(std::cos(turns.angle) * along + std::sin(turns.angle) * across)) - 1.0) <
+                 1e-10);
       BOOST_TEST(std::abs(2.0 * std::numbers::pi * turns.shape - sign * rotation) < 1e-10);
       BOOST_TEST(std::abs(2.0 * std::numbers::pi * turns.membrane - sign * circulation) < 1e-10);
     }
@@ -142,6 +147,7 @@ BOOST_AUTO_TEST_CASE(a_round_shape_does_not_tumble_and_a_deforming_one_does_not_
   gradient(0, 2) = 1.0;
   gradient(2, 0) = -1.0;
   const auto turns = [&] { return turning(s, volume_moments(s), s.position * gradient.transpose(), Vector3::UnitY()); };
+  BOOST_TEST(turns().angle == 0.0);
   BOOST_TEST(turns().shape == 0.0);
   BOOST_TEST(std::abs(turns().membrane - 0.5 / std::numbers::pi) < 1e-12);
   gradient(2, 0) = 0.5;
