@@ -68,14 +68,12 @@ double radius_of(const Matrix& position) {
   return std::sqrt(position.bottomRows(position.rows() - 1).squaredNorm() / (4.0 * std::numbers::pi));
 }
 
-/// Bound of the distance between corresponding points of two series: Σ √((2n+1)/4π) |x_n| over the degrees n.
-double largest_displacement(const Matrix& a, const Matrix& b) {
-  const Matrix difference = a - b;
+/// Bound of the lengths of the vectors of a series: Σ √((2n+1)/4π) |x_n| over the degrees n.
+double largest_length(const Matrix& vectors) {
   double bound = 0.0;
-  for (int n = 0; n <= order_of(difference.rows()); ++n) {
+  for (int n = 0; n <= order_of(vectors.rows()); ++n) {
     const Index first = Index{n} * n, size = 2 * Index{n} + 1;
-    bound +=
-        std::sqrt(static_cast<double>(size) / (4.0 * std::numbers::pi)) * difference.middleRows(first, size).norm();
+    bound += std::sqrt(static_cast<double>(size) / (4.0 * std::numbers::pi)) * vectors.middleRows(first, size).norm();
   }
   return bound;
 }
@@ -94,8 +92,10 @@ void take_shapes(const RunReader& run, std::size_t first, std::size_t last, bool
     for (Matrix& field : *fields) field = resize_order(field, order);
   }
   const Matrix end = span.positions.back();
-  const double bound = still_motion * radius_of(end);
-  if (std::ranges::any_of(span.positions, [&](const Matrix& x) { return largest_displacement(x, end) > bound; }))
+  const double bound = still_motion * radius_of(end), duration = span.end - span.begin;
+  // The material of a sphere that rotates moves although its points stand still.
+  if (std::ranges::any_of(span.positions, [&](const Matrix& x) { return largest_length(x - end) > bound; }) ||
+      std::ranges::any_of(span.velocities, [&](const Matrix& v) { return largest_length(duration * v) > bound; }))
     return;
   span.shape_times = {span.end};
   span.positions = {end};

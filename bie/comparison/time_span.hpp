@@ -31,7 +31,7 @@ struct TimeSpan {
 constexpr std::int64_t most_span_steps = 512;
 constexpr std::int64_t span_intervals = 3 * most_span_steps;
 
-/// A shape whose points move by less than this share of its radius is at rest.
+/// A membrane whose points and material move by less than this share of its radius is at rest.
 constexpr double still_motion = 1e-6;
 
 /// @param file  a run.h5

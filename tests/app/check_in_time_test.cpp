@@ -138,6 +138,21 @@ BOOST_AUTO_TEST_CASE(steps_of_a_moving_shape_count_as_an_error_of_the_run) {
   BOOST_TEST(vehd::change_by_finer_motion(end, span).size() == 0);
 }
 
+// Regression: its points stand still, and the motion of its material was left out.
+BOOST_AUTO_TEST_CASE(sphere_that_rotates_is_not_at_rest) {
+  const FinishedRun run(
+      "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.0, 1.0]\n[flow]\nkind = 'shear'\nrate = 1.0\n"
+      "[electric]\nfield = [0.0, 0.0, 1.0]\nconductivity_in = 1.0\nconductivity_out = 1.0\n"
+      "[numerics]\norder = 5\ntime_order = 3\ndt = 0.05\nend_time = 1.0\n[output]\nevery = 0.25\n");
+  const std::string result = run.directory / "result.json";
+  const ProgramResult check =
+      run_vehd({"check", run.output + "/run.h5", "--from", "0.5", "--quick", "--no-plot", "--json", result});
+  BOOST_TEST(check.exit_code == 0, check.output + check.errors);
+  const nlohmann::json in_time = json_of(result)["in_time"];
+  BOOST_TEST(in_time["moves"].get<bool>());
+  BOOST_TEST(in_time["Vm"]["verdict"].get<std::string>() == "agree", in_time.dump(1));
+}
+
 BOOST_AUTO_TEST_CASE(span_that_is_none_is_refused) {
   const FinishedRun run(charging_scene);
   const std::string file = run.output + "/run.h5";
