@@ -213,6 +213,7 @@ void write_in_time(VesicleWriter& file, const InTime& in_time) {
   file.group("/in_time");
   file.attribute("/in_time", "begin", span.begin);
   file.attribute("/in_time", "intervals", span.intervals);
+  file.attribute("/in_time", "fewest_steps", span.fewest_steps);
   write(file, "/in_time/Vm", span.potential, {"potential", "V_m of the snapshot at the begin"});
   write_numbers(file, "/in_time/field_times", span.field_times,
                 {"time", "evenly spaced between two discontinuities of the field, which are there twice"});

@@ -11,7 +11,7 @@
 namespace vehd {
 
 /// Version of the layout, which must be equal on both sides.
-constexpr std::int64_t check_schema_version = 5;
+constexpr std::int64_t check_schema_version = 6;
 
 /// Solutions of the problem of V_m in time.
 struct InTime {

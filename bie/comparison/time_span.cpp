@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -45,14 +46,35 @@ std::vector<double> smooth_pieces(const Waveform& waveform, double begin, double
   return ends;
 }
 
-void take_field(const FrozenState& end, const std::string& file, TimeSpan& span) {
+/// Fewest steps for this number of periods, a power of two. Steps near a whole period would find a constant field.
+std::int64_t fewest_steps(double periods, const std::string& file) {
+  constexpr double steps_a_period = 4.0, fewest = 4.0;
+  // The error of the steps is the change by twice as many.
+  constexpr double most_periods = most_span_steps / 2 / steps_a_period;
+  if (!(periods <= most_periods)) {
+    throw InputError(
+        fmt::format("{}: the field has {:.4g} periods between --from and --time; accepted: at most {:g}, with times "
+                    "that are closer to each other",
+                    file, periods, most_periods));
+  }
+  const double steps = std::max(fewest, std::ceil(steps_a_period * periods));
+  return static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(steps)));
+}
+
+/// @param waveform  of the scene, absent if the field is constant
+void take_field(const FrozenState& end, const std::optional<WaveformScene>& waveform, const std::string& file,
+                TimeSpan& span) {
   const ElectricParameters electric = electric_parameters(end.model, vesicle_of_span(end));
   const std::vector<double> ends = smooth_pieces(electric.waveform, span.begin, span.end, file);
   span.intervals = span_intervals;
   const auto n_pieces = static_cast<Index>(ends.size()) - 1;
   span.field.resize(n_pieces * (span_intervals + 1), 3);
+  double periods = 0.0;
   for (Index piece = 0; piece < n_pieces; ++piece) {
     const double first = ends[static_cast<std::size_t>(piece)], last = ends[static_cast<std::size_t>(piece) + 1];
+    if (waveform && alternates(*waveform) && !electric.waveform.is_quiet(first)) {
+      periods = std::max(periods, waveform->frequency * (last - first));
+    }
     for (std::int64_t i = 0; i <= span_intervals; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(span_intervals);
       const double time = i == span_intervals ? last : first + share * (last - first);
@@ -61,6 +83,7 @@ void take_field(const FrozenState& end, const std::string& file, TimeSpan& span)
       span.field_times.push_back(time);
     }
   }
+  span.fewest_steps = fewest_steps(periods, file);
 }
 
 double radius_of(const Matrix& position) {
@@ -130,12 +153,13 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
                                                   from, span.end));
   const RunSnapshot start = run.snapshot(choice.snapshot);
   span.potential = resize_order(start.coefficients("Vm", 1), start.degree());
-  span.control = step_control_of(parse_scene(run.scene(), file.string() + " (scene)", file.parent_path()));
+  const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
+  span.control = step_control_of(scene);
   take_shapes(run, choice.snapshot, run.nearest(span.end), end.model.mobile, span);
   // Blocks of a mesh that ends on a wall follow the shape, and so do the directions in which it has points.
   refuse_if(end.model.wall && span.positions.size() > 1,
             "has a membrane that moves beside a wall between --from and --time; --from accepts one at rest there");
-  take_field(end, file.string(), span);
+  take_field(end, scene.electric->waveform, file.string(), span);
   return span;
 }
 

@@ -21,9 +21,10 @@ struct TimeSpan {
   /// Evenly spaced between two discontinuities of the field, end points included: a discontinuity is there twice, with
   /// the field before it and the field after it.
   std::vector<double> field_times;
-  Matrix field;                ///< E_∞ at each of them, [n_times x 3]
-  std::int64_t intervals = 0;  ///< number between two discontinuities
-  StepControl control;         ///< step control of the run
+  Matrix field;                   ///< E_∞ at each of them, [n_times x 3]
+  std::int64_t intervals = 0;     ///< number between two discontinuities
+  std::int64_t fewest_steps = 0;  ///< of the finite elements between two discontinuities: at least four a period
+  StepControl control;            ///< step control of the run
 };
 
 /// Largest number of steps of the finite elements between two discontinuities of the field. The first steps need the
@@ -37,7 +38,7 @@ constexpr double still_motion = 1e-6;
 /// @param file  a run.h5
 /// @param from  time of the first snapshot as text, see read_frozen_state
 /// @param end   state of the last snapshot
-/// @throws InputError if there is no such time before the end, no V_m, or a field that jumps too often
+/// @throws InputError if there is no such time before the end, no V_m, or a field that jumps or alternates too often
 TimeSpan read_time_span(const std::filesystem::path& file, const std::string& from, const FrozenState& end);
 
 /// V_m at the end of a span by boundary integrals, with the shape held at that of the end: coefficients

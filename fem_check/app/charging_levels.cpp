@@ -36,8 +36,7 @@ class StepRefinement {
 
 ChargingLevels solve_charging_levels(const CheckInput& input, Meshes& meshes, const Refinement& refinement,
                                      const Report& report) {
-  constexpr int fewest_steps = 4;
-  const int most_steps = input.in_time->intervals / 3;
+  const int fewest_steps = input.in_time->fewest_steps, most_steps = input.in_time->intervals / 3;
   const ChargingRun run(input, refinement);
   const ShapePath whole_path(*input.in_time);
   const ShapePath* path = input.in_time->moves() ? &whole_path : nullptr;

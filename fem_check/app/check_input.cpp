@@ -9,7 +9,7 @@
 namespace vehd::fem_check {
 namespace {
 
-constexpr double schema_version = 5;
+constexpr double schema_version = 6;
 
 void require_schema(const Hdf5Input& file) {
   const double version = file.number("/", "schema_version");
@@ -195,6 +195,7 @@ InTime read_in_time(const VesicleGroup& file, const CheckInput& input) {
   };
   result.begin = file.number(group, "begin");
   result.intervals = static_cast<int>(file.number(group, "intervals"));
+  result.fewest_steps = static_cast<int>(file.number(group, "fewest_steps"));
   result.field_times = file.matrix(group + "/field_times").col(0);
   const Eigen::Index n_times = result.field_times.size();
   result.field = matrix_of_size(file, group + "/field", n_times, 3).transpose();

@@ -70,6 +70,7 @@ struct InTime {
   Vector field_times;
   Vectors field;  ///< E_∞ at these times
   int intervals = 0;
+  int fewest_steps = 0;  ///< between two discontinuities: at least four in a period of the field
   /// Times of the snapshots in this interval, or only that of the last one if the shape is constant.
   Vector shape_times;
   std::vector<Eigen::MatrixXd> positions;

@@ -153,6 +153,33 @@ BOOST_AUTO_TEST_CASE(sphere_that_rotates_is_not_at_rest) {
   BOOST_TEST(in_time["Vm"]["verdict"].get<std::string>() == "agree", in_time.dump(1));
 }
 
+// Regression: few steps saw a field of another period, and two numbers of steps that agreed were taken for enough.
+BOOST_AUTO_TEST_CASE(steps_resolve_each_period_of_the_field) {
+  const FinishedRun run(
+      "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.0, 1.0]\n[membrane]\nmobile = false\nconductance = 0.5\n"
+      "[electric]\nfield = [0.0, 0.0, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+      "[electric.waveform]\nkind = 'burst'\nfrequency = 20.0\nstart = 0.0\nduration = 4.0\n"
+      "[numerics]\norder = 4\ntime_order = 3\ndt = 0.0125\nend_time = 6.0\n[output]\ntimes = [3.0, 3.5, 4.0]\n");
+  const std::string file = run.output + "/run.h5";
+  const FrozenState end = vehd::read_frozen_state({file, {}}, "4.0");
+  BOOST_TEST(vehd::read_time_span(file, "3.0", end).fewest_steps == 128);
+  BOOST_TEST(vehd::read_time_span(file, "3.5", end).fewest_steps == 64);
+  // Without a field no steps resolve it.
+  const FrozenState after = vehd::read_frozen_state({file, {}}, "6.0");
+  BOOST_TEST(vehd::read_time_span(file, "3.5", after).fewest_steps == 64);
+  BOOST_TEST(vehd::read_time_span(file, "4.0", after).fewest_steps == 4);
+
+  const std::string result = run.directory / "result.json";
+  const ProgramResult check =
+      run_vehd({"check", file, "--from", "3.5", "--time", "4.0", "--quick", "--no-plot", "--json", result});
+  BOOST_TEST(json_of(result)["in_time"]["steps"].get<int>() >= 128, check.output + check.errors);
+  const ProgramResult refused = run_vehd({"check", file, "--from", "0", "--time", "4.0", "--quick"});
+  BOOST_TEST(refused.exit_code == 1);
+  BOOST_TEST(refused.errors == file +
+                                   ": the field has 80 periods between --from and --time; accepted: at most 64, with "
+                                   "times that are closer to each other\n");
+}
+
 BOOST_AUTO_TEST_CASE(span_that_is_none_is_refused) {
   const FinishedRun run(charging_scene);
   const std::string file = run.output + "/run.h5";
