@@ -9,6 +9,7 @@
 #include "bie/comparison/check.hpp"
 #include "bie/comparison/frozen_state.hpp"
 #include "bie/pictures/plots.hpp"
+#include "bie/support/file_system.hpp"
 
 namespace vehd {
 namespace {
@@ -58,6 +59,7 @@ ExitCode check(const CheckOptions& options) {
   task.on_solved = [first = true](const CheckFields& fields) mutable {
     print_solved(fields, std::exchange(first, false));
   };
+  make_directory(task.directory);
   std::filesystem::remove(differences_file(task.directory));
   const FemProgram::Result result = compare_methods(fem, task);
   if (!result.json.is_null()) write_json(options.common, result.json);

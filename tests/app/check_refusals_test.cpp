@@ -54,6 +54,18 @@ BOOST_AUTO_TEST_CASE(stored_number_that_is_wrong_by_a_percent_is_noticed) {
   }
 }
 
+// Regression: ended with "internal error: filesystem error: cannot remove".
+BOOST_AUTO_TEST_CASE(output_that_is_a_file_or_below_one_is_refused) {
+  const TemporaryDirectory directory;
+  write_text(directory / "scene.toml", moving_scene);
+  write_text(directory / "file", "");
+  for (const std::string& output : {directory / "file", directory / "file/out"}) {
+    const ProgramResult result = run_vehd({"check", directory / "scene.toml", "-o", output});
+    BOOST_TEST(result.exit_code == 1, output);
+    BOOST_TEST(result.errors == output + ": cannot be used as output directory: Not a directory\n");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(snapshot_that_lost_its_seal_is_refused) {
   const FinishedRun run;
   const std::string file = run.output + "/run.h5";
