@@ -7,7 +7,6 @@
 #include "bie/comparison/stored_copies.hpp"
 #include "bie/files/run_reader.hpp"
 #include "bie/geometry/surface.hpp"
-#include "bie/physics/effects/tension.hpp"
 #include "bie/physics/effects/undulations.hpp"
 #include "bie/runs/given_times.hpp"
 #include "bie/runs/run_files.hpp"
@@ -16,6 +15,7 @@
 #include "bie/scene/problem.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/scene/shapes/initial_shape.hpp"
+#include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
@@ -175,7 +175,9 @@ class VesicleOfSnapshot {
   VesicleOfSnapshot(const FrozenSource& origin, std::size_t vesicle)
       : source_(origin), snapshot_(*origin.snapshot), vesicle_(vesicle) {}
 
-  void read(const MembraneScene& scene, FrozenState& frozen) const {
+  /// @param scene  of this vesicle alone
+  void read(const Scene& scene, FrozenState& frozen) const {
+    const MembraneScene& membrane = scene.membrane;
     const Model& model = frozen.model;
     VesicleModel& of_model = frozen.model.vesicles[vesicle_];
     VesicleState& state = frozen.state.vesicles.emplace_back();
@@ -193,32 +195,23 @@ class VesicleOfSnapshot {
     fields.force_electric = coefficients("force_electric", 3, electric);
     fields.charge = coefficients("q", 1, electric);
     if (electric) read_potential(relaxes_charge(model), of_model.charging.capacitance, state, fields);
-    state.material.capacitance = coefficients("capacitance", 1, electric && scene.capacitance_by_place);
-    state.material.pump_current = coefficients("pump_current", 1, electric && scene.pump);
+    state.material.capacitance = coefficients("capacitance", 1, electric && membrane.capacitance_by_place);
+    state.material.pump_current = coefficients("pump_current", 1, electric && membrane.pump);
     // The stored conductance is the sum of those of the pores and of the membrane.
-    if (scene.conductance_by_place) of_model.reaction.reset();
-    state.material.conductance = coefficients("conductance", 1, electric && scene.conductance_by_place);
+    if (membrane.conductance_by_place) of_model.reaction.reset();
+    state.material.conductance = coefficients("conductance", 1, electric && membrane.conductance_by_place);
     state.poration = coefficients("poration", 1, of_model.reaction != nullptr);
     fields.conductance = coefficients("conductance", 1, of_model.reaction != nullptr);
     // In the file they are continued by zeros to its own degree, at which nothing was solved.
     const int degree = snapshot_.degree(vesicle_);
     state = resized(std::move(state), degree);
     fields = resized(std::move(fields), degree);
-    if (of_model.undulations) of_model.undulations = of_shape(*of_model.undulations, state.position, fields.tension);
+    std::optional<Undulations>& undulations = of_model.undulations;
+    // As in the run: otherwise the stored tension would not be judged.
+    if (undulations) undulations = with_rest_area(*undulations, size_of(initial_position(scene)).area);
   }
 
  private:
-  /// Undulations with the rest area of a membrane that has this tension in this shape.
-  static Undulations of_shape(Undulations undulations, const Matrix& position, const Vector& tension) {
-    const int order = order_of(position.rows());
-    const SphereTransform transform(order, make_grid(2 * order));
-    const Surface surface = make_surface(transform, position);
-    const double area = surface_area(surface);
-    undulations.reference_tension = mean_tension(transform, surface, tension);
-    undulations.rest_area = 0.0;
-    return with_rest_area(undulations, area);
-  }
-
   void read_potential(bool relaxes, double capacitance, VesicleState& state, VesicleFields& fields) const {
     const Vector potential = coefficients("Vm", 1);
     if (!relaxes) {
@@ -245,7 +238,7 @@ class VesicleOfSnapshot {
 void take_snapshot(const FrozenSource& origin, FrozenState& frozen) {
   frozen.state.time = origin.snapshot->time();
   const std::vector<Scene> alone = each_alone(origin.scene);
-  for (std::size_t a = 0; a < alone.size(); ++a) VesicleOfSnapshot(origin, a).read(alone[a].membrane, frozen);
+  for (std::size_t a = 0; a < alone.size(); ++a) VesicleOfSnapshot(origin, a).read(alone[a], frozen);
   require_copies(*origin.run, origin.number);
 }
 

@@ -267,4 +267,26 @@ BOOST_AUTO_TEST_CASE(snapshot_has_the_degree_that_it_was_solved_in) {
   for (const double difference : differences(12)) BOOST_TEST(difference > 1e-4);
 }
 
+// Regression: A_0 was the one that reproduces the stored tension, so no row judged σ(A).
+BOOST_AUTO_TEST_CASE(stored_tension_is_that_of_the_law_of_undulations_in_the_scene) {
+  const TemporaryDirectory directory;
+  const auto scene = [](const std::string& modulus, const std::string& numerics) {
+    return "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.2, 1.5]\n"
+           "[membrane]\nbending_modulus = 0.1\nundulations = true\nrest_area = 18.5\nstretching_modulus = " +
+           modulus + "\n[flow]\nkind = 'shear'\nrate = 1.0\n[numerics]\nend_time = 0.0\n" + numerics;
+  };
+  write_text(directory / "scene.toml", scene("100.0", "degree = 8\ndt = 0.1\n"));
+  const vehd::FrozenState solved = vehd::read_frozen_state({directory / "scene.toml", {}}, std::nullopt);
+  const auto difference = [&](const std::string& modulus) {
+    write_padded_run(directory / "run.h5", scene(modulus, "degree = 12\ntolerance = 1e-3\n"), solved);
+    const vehd::FrozenState read = vehd::read_frozen_state({directory / "run.h5", {}}, std::nullopt);
+    vehd::CheckProblem problem = vehd::check_problem(read);
+    problem.samples = {};
+    const vehd::Vector& stored = read.fields.vesicles.front().tension;
+    return (vehd::check_fields(problem, {8}).front().tension - stored).norm() / stored.norm();
+  };
+  BOOST_TEST(difference("100.0") < 1e-5);
+  BOOST_TEST(difference("300.0") > 0.1);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
