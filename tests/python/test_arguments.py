@@ -54,7 +54,7 @@ ARRAYS = {
 OPERATORS = {name: VECTOR if name.startswith("stokes") else SCALAR
              for name in ("single_layer", "double_layer", "adjoint", "hypersingular", "stokes_single", "stokes_double")}
 
-BELOW_ZERO, ZERO, WHOLE = (-2.0,), (0.0, -2.0), (0, -1, 1.5)
+BELOW_ZERO, ZERO, WHOLE = (-2.0,), (0.0, -2.0), (0, -1, 1.5, 2**31)
 # Every number that a public function takes: how it is given, and what is refused besides what no number may be.
 NUMBERS = {
     "Surface.__init__.upsampling": (lambda x: vehd.Surface(SURFACE.coefficients, upsampling=x), (*WHOLE, 10**9)),
@@ -81,11 +81,11 @@ NUMBERS = {
     "solve_by_elements.cells": (lambda x: vehd.solve_by_elements(SURFACE, [], 2.0, 1.0, cells=x), WHOLE),
     "solve_by_elements.outer_radius": (lambda x: vehd.solve_by_elements(SURFACE, [], 2.0, 1.0, outer_radius=x), (1.0,)),
     "fit.jobs": (lambda x: vehd.fit("none.toml", "none", jobs=x), (*WHOLE, 10**6)),
-    "n_coefficients.degree": (vehd.n_coefficients, (-1, 1.5)),
-    "coefficient_index.n": (lambda x: vehd.coefficient_index(x, 0), (-1, 1.5)),
+    "n_coefficients.degree": (vehd.n_coefficients, (-1, 1.5, 2**31)),
+    "coefficient_index.n": (lambda x: vehd.coefficient_index(x, 0), (-1, 1.5, 2**31)),
     "coefficient_index.m": (lambda x: vehd.coefficient_index(2, x), (3, -3, 1.5)),
-    "degree_of.index": (vehd.degree_of, (-1, 1.5)),
-    "resize_degree.degree": (lambda x: vehd.resize_degree(VECTOR, x), (-1, 1.5)),
+    "degree_of.index": (vehd.degree_of, (-1, 1.5, 2**63)),
+    "resize_degree.degree": (lambda x: vehd.resize_degree(VECTOR, x), (-1, 1.5, 10**18)),
     "set_threads.count": (vehd.set_threads, (*WHOLE, 10**6)),
 }
 # Names of other kinds that a scene or a file checks, or that a message of Python itself refuses.
@@ -147,6 +147,17 @@ class Arrays(unittest.TestCase):
                 with self.subTest(path, shape=np.shape(wrong)), self.assertRaises(vehd.ShapeError):
                     take(wrong)
 
+    def test_solves_take_magnitudes_of_scenes_alone(self):
+        for path, (take, right) in ARRAYS.items():
+            if path.startswith("solve"):
+                for wrong in (1e-200 * right, 1e-51 * right / abs(right).max(), 1e51 * right, 1e200 * right):
+                    self.assert_refused(vehd.InputError, path, take, wrong)
+        for path in ("solve_electric.field", "solve_tension.velocity"):
+            take, right = ARRAYS[path]
+            for scale in (1e-49, 1e49):
+                expected = take(right)
+                np.testing.assert_allclose(take(scale * right) / scale, expected, atol=1e-10 * abs(expected).max())
+
     def test_all_real_numbers_are_the_same(self):
         for path, (take, right) in ARRAYS.items():
             whole = np.rint(8 * right)
@@ -192,7 +203,7 @@ class Numbers(unittest.TestCase):
     def test_numbers_out_of_bounds_are_refused_by_name(self):
         for path, (take, wrong_ones) in NUMBERS.items():
             name = path.split(".")[-1]
-            for wrong in (*wrong_ones, np.nan, np.inf, 1 + 0j, "1", [1.0], True):
+            for wrong in (*wrong_ones, np.nan, np.inf, 1e-200, 1e200, 1 + 0j, "1", [1.0], True):
                 with self.subTest(path, given=wrong):
                     with self.assertRaises(vehd.InputError) as caught:
                         take(wrong)

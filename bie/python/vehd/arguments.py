@@ -53,9 +53,18 @@ def reals(name: str, values: Any, *shapes: Shape) -> np.ndarray:
     return array
 
 
+def magnitude(name: str, values: Any) -> Any:
+    """Real numbers whose largest is of a magnitude that scenes may have; squares of others may overflow or vanish.
+    InputError: others."""
+    largest = float(np.max(np.abs(values), initial=0.0))
+    if largest != 0.0 and not 1e-50 <= largest <= 1e50:
+        raise _core.InputError(f"{name} is {largest:g} in magnitude; accepted: 1e-50 ... 1e+50 unless 0")
+    return values
+
+
 def real(name: str, value: Any, above: Optional[float] = None, least: Optional[float] = None,
          below: Optional[float] = None) -> float:
-    """A finite real number within bounds. InputError: anything else."""
+    """A finite real number within bounds, of a magnitude that scenes may have. InputError: anything else."""
     bounds = [f"{word} {bound:g}" for word, bound in (("above", above), ("at least", least), ("below", below))
               if bound is not None]
     accepted = "a finite number" if not bounds else "a number " + " and ".join(bounds)
@@ -65,18 +74,17 @@ def real(name: str, value: Any, above: Optional[float] = None, least: Optional[f
     if (not math.isfinite(number) or (above is not None and number <= above) or (least is not None and number < least)
             or (below is not None and number >= below)):
         raise _core.InputError(f"{name} is {shown(value)}; accepted: {accepted}")
-    return number
+    return magnitude(name, number)
 
 
-def whole(name: str, value: Any, least: int, most: Optional[int] = None) -> int:
+def whole(name: str, value: Any, least: int, most: int = 10**9) -> int:
     """A whole number within bounds. InputError: anything else."""
     try:
         number = least - 1 if isinstance(value, (bool, np.bool_)) else operator.index(value)
     except TypeError:
         number = least - 1
-    if number < least or (most is not None and number > most):
-        accepted = f"{least} or more" if most is None else f"{least} to {most}"
-        raise _core.InputError(f"{name} is {shown(value)}; accepted: a whole number, {accepted}")
+    if not least <= number <= most:
+        raise _core.InputError(f"{name} is {shown(value)}; accepted: a whole number, {least} to {most}")
     return number
 
 

@@ -5,7 +5,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _core
-from .arguments import real, reals, shown
+from .arguments import magnitude, real, reals, shown
 from .surface import Surface
 
 Sources = List[Tuple[Sequence[float], float, bool]]
@@ -52,8 +52,8 @@ def solve_electric(surface: Surface, field: Sequence[float], conductivity_in: fl
     ConvergenceError: the solve has not reached the tolerance.
     """
     return _core.solve_electric(
-        surface._core, reals("field", field, (3,)), *conductivities(conductivity_in, conductivity_out),
-        None if potential is None else surface._scalar("potential", potential),
+        surface._core, magnitude("field", reals("field", field, (3,))), *conductivities(conductivity_in, conductivity_out),
+        None if potential is None else magnitude("potential", surface._scalar("potential", potential)),
         real("permittivity", permittivity, above=0.0), real("permittivity_ratio", permittivity_ratio, above=0.0),
         real("tolerance", tolerance, above=0.0, below=1.0))
 
@@ -69,14 +69,15 @@ def solve_jumps(surface: Surface, potential: np.ndarray, current: np.ndarray, co
     InputError: conductivity_out is 0 and the current has an integral.
     ConvergenceError: the solve has not reached the tolerance.
     """
-    current = reals("current", current, surface.weight.shape)
+    potential = magnitude("potential", surface._scalar("potential", potential))
+    current = magnitude("current", reals("current", current, surface.weight.shape))
     inside, outside = conductivities(conductivity_in, conductivity_out)
     tolerance = real("tolerance", tolerance, above=0.0, below=1.0)
     net = surface.integrate(current)
     if outside == 0.0 and abs(net) > tolerance * surface.integrate(np.abs(current)):
         raise _core.InputError(f"current has the integral {net:.6g}; accepted: 0 where conductivity_out is 0, as no "
                                "current can leave")
-    return _core.solve_jumps(surface._core, surface._scalar("potential", potential), current, inside, outside,
+    return _core.solve_jumps(surface._core, potential, current, inside, outside,
                              real("permittivity", permittivity, above=0.0), tolerance)
 
 
@@ -89,7 +90,7 @@ def solve_tension(surface: Surface, velocity: np.ndarray, viscosity: float = 1.0
 
     ConvergenceError: the solve has not reached the tolerance.
     """
-    return _core.solve_tension(surface._core, surface._vector("velocity", velocity),
+    return _core.solve_tension(surface._core, magnitude("velocity", surface._vector("velocity", velocity)),
                                real("viscosity", viscosity, above=0.0),
                                real("tolerance", tolerance, above=0.0, below=1.0))
 
