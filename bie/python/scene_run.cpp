@@ -31,9 +31,6 @@ SceneRun::SceneRun(const GivenScene& given, const std::optional<std::filesystem:
   if (!directory_ && parts_->scene.numerics.error_bars) {
     throw InputError("\"error_bars\" in [numerics] is true, but there is no directory for history_error.csv");
   }
-  if (!directory_ && !from.empty()) {
-    throw InputError("from_run continues a run in another directory, but there is no directory");
-  }
   if (directory_) {
     parts_->session.emplace(parts_->scene, given.source, *directory_, resume, Ranks(), false, from);
     if (parts_->session->is_complete()) {

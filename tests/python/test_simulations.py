@@ -102,8 +102,16 @@ class Bits(InFolder):
         self.assertGreater(run.history["time"][0], 0.0)
         self.assertEqual((self.folder / "python/history.csv").read_bytes(),
                          (self.folder / "program/history.csv").read_bytes())
-        with self.assertRaisesRegex(vehd.InputError, "no directory"):
-            vehd.Simulation(after, from_run=first)
+
+    def test_a_run_goes_on_only_from_and_in_a_directory(self):
+        file = self.write(SHEARED)
+        for wrong in ({"resume": True}, {"from_run": self.folder}, {"resume": True, "from_run": self.folder}):
+            with self.subTest(wrong), self.assertRaisesRegex(vehd.InputError, "no directory"):
+                vehd.Simulation(file, **wrong)
+        for directory in (None, self.folder / "run"):
+            with self.assertRaisesRegex(vehd.InputError, "from_run is ''; accepted: the directory of a run"):
+                vehd.Simulation(file, directory, from_run="")
+        self.assertEqual(list(self.folder.iterdir()), [file])
 
     def test_a_directory_is_for_one_at_a_time(self):
         scene = vehd.Scene.from_text(SHEARED)

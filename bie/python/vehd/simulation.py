@@ -30,8 +30,9 @@ class Simulation:
 
     SceneError, InputError, OutputError, ConvergenceError: with the messages of the program.
 
-    Other threads of Python run during a step. Ctrl-C lets the current step end and raises KeyboardInterrupt; the
-    simulation can then continue.
+    Other threads of Python run during a step; one that meanwhile steps the simulation or reads its state or history gets
+    a RuntimeError.
+    Ctrl-C lets the current step end and raises KeyboardInterrupt; the simulation can then continue.
     """
 
     def __init__(self, scene: Union[Scene, str, "os.PathLike[str]", Mapping[str, Any]],
@@ -42,6 +43,10 @@ class Simulation:
         elif not isinstance(scene, Scene):
             scene = Scene(scene)
         self.scene = scene
+        if from_run == "":
+            raise _core.InputError("from_run is ''; accepted: the directory of a run")
+        if directory is None and (resume or from_run is not None):
+            raise _core.InputError("resume and from_run continue a run in a directory, but there is no directory")
         self._core = _core.SceneRun(scene._core, None if directory is None else os.fspath(directory), resume,
                                     "" if from_run is None else os.fspath(from_run))
 
