@@ -194,6 +194,9 @@ class Pictures(unittest.TestCase):
         figure = vehd.plot.history(run, ["extent_x", "Vm_max"])
         np.testing.assert_array_equal(figure.axes[1].lines[0].get_ydata(), run.history["Vm_max"])
         self.assertEqual(figure.axes[1].get_xlabel(), "time")
+        self.assertEqual([axes.get_ylabel() for axes in vehd.plot.history(run.history, "extent_z").axes], ["extent_z"])
+        with self.assertRaisesRegex(TypeError, "what is 'out/relaxation'; accepted: a simulation, or a table"):
+            vehd.plot.history("out/relaxation")
         line = vehd.plot.outline(vehd.Surface.from_shape("ellipsoid", 8, axes=[1.0, 1.0, 2.0])).lines[0]
         x, z = line.get_data()
         np.testing.assert_allclose(x**2 + z**2 / 4, 1.0, atol=1e-12)
@@ -234,6 +237,9 @@ class Pictures(unittest.TestCase):
         self.assertEqual(together.units["time"], "ms")
         with self.assertRaisesRegex(vehd.InputError, "column 'time' has the units 'ms', 's'; accepted: one"):
             vehd.concat([table("ms", [0.0]), table("s", [1.0])])
+        for wrong in ([table("ms", [0.0]), 3], table("ms", [0.0])):
+            with self.assertRaisesRegex(TypeError, "tables is .*; accepted: a list of tables"):
+                vehd.concat(wrong)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ from typing import Any, Optional, Sequence, Union
 
 import numpy as np
 
-from .arguments import real, reals, whole
+from .arguments import real, reals, shown, whole
 from .harmonics import evaluate_harmonics
 from .simulation import Simulation
 from .surface import Surface
@@ -15,12 +15,15 @@ def _surface(what: Any) -> Surface:
     return what if isinstance(what, Surface) else Surface(what)
 
 
-def history(what: Union[Table, Simulation], columns: Sequence[str] = ("bending_energy_scaled", "extent_z"),
+def history(what: Union[Table, Simulation], columns: Union[str, Sequence[str]] = ("bending_energy_scaled", "extent_z"),
             axes: Optional[Any] = None) -> Any:
-    """Columns of a history against time, one panel each. Returns the figure."""
+    """Columns of a history, or one, against time, one panel each. Returns the figure."""
     import matplotlib.pyplot as plt
 
     table = what.history if isinstance(what, Simulation) else what
+    if not isinstance(table, Table):
+        raise TypeError(f"what is {shown(what)}; accepted: a simulation, or a table as of vehd.read_history")
+    columns = [columns] if isinstance(columns, str) else columns
     if axes is None:
         _, axes = plt.subplots(len(columns), 1, sharex=True, squeeze=False, layout="constrained")
     panels = np.ravel(axes)

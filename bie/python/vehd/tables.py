@@ -8,6 +8,7 @@ from typing import Any, Iterable, Union
 import numpy as np
 
 from . import _core
+from .arguments import shown
 
 
 class Table(dict):
@@ -54,11 +55,13 @@ def concat(tables: Iterable[Table]) -> Table:
     """The rows of several tables one after another, with the column `run`: 0 for the first table, 1 for the second …
     Columns are those that all tables have.
 
-    InputError: a column has two units, or there is no table.
+    InputError: a column has two units, or there is no table. TypeError: something else than tables.
     """
     parts = list(tables)
     if not parts:
         raise _core.InputError("concat of no tables")
+    if not all(isinstance(part, Table) for part in parts):
+        raise TypeError(f"tables is {shown(tables)}; accepted: a list of tables, such as histories of simulations")
     result = Table({"run": np.repeat(np.arange(len(parts)), [len(next(iter(part.values()), ())) for part in parts])})
     result.units = {"run": ""}
     for name in parts[0]:
