@@ -43,6 +43,10 @@ void print_fit(const FitFile& fit, const FitResult& result, const FitPaths& path
   for (const Combination& combination : result.statistics.undetermined) {
     fmt::print("not determined: {} changes the data by less than the runs' error\n", text_of(fit, combination));
   }
+  for (const Index k : result.minimum.at_end) {
+    fmt::print("{} is at the end of its interval: the data fit better beyond it\n",
+               fit.keys[static_cast<std::size_t>(k)].name);
+  }
   fmt::print("files: {}\n", paths.directory.string());
 }
 

@@ -51,7 +51,7 @@ FitResult fit_keys(const FitFile& fit, const ModelRuns& runs, std::function<void
   FitResult result;
   result.minimum = minimum_of(problem);
   std::vector<Combination> undetermined = undetermined_combinations(problem, result.minimum);
-  result.statistics = statistics_of(result.minimum.jacobian, std::move(undetermined));
+  result.statistics = statistics_of(result.minimum.jacobian, std::move(undetermined), result.minimum.at_end);
   for (std::size_t k = 0; k < fit.keys.size(); ++k) {
     result.values.push_back(fit.keys[k].number_of(result.minimum.point[static_cast<Index>(k)]));
   }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "bie/files/json_text.hpp"
 #include "bie/scene/effective_scene.hpp"
@@ -28,18 +27,6 @@ nlohmann::json interval(const FreeKey& key, double number, double error, double 
   return {key.number_of(p - times * error), key.number_of(p + times * error)};
 }
 
-/// Keys that contribute to a combination, largest first.
-std::vector<std::size_t> keys_of(const Combination& combination) {
-  constexpr double least_share = 0.05;
-  std::vector<std::size_t> keys;
-  for (Index k = 0; k < combination.direction.size(); ++k) {
-    if (std::abs(combination.direction[k]) >= least_share) keys.push_back(static_cast<std::size_t>(k));
-  }
-  std::ranges::stable_sort(keys, std::greater{},
-                           [&](std::size_t k) { return std::abs(combination.direction[static_cast<Index>(k)]); });
-  return keys;
-}
-
 }  // namespace
 
 std::filesystem::path FitPaths::best(const FitFile& fit, const Experiment& experiment) const {
@@ -47,13 +34,13 @@ std::filesystem::path FitPaths::best(const FitFile& fit, const Experiment& exper
 }
 
 std::string text_of(const FitFile& fit, const Combination& combination) {
-  const std::vector<std::size_t> keys = keys_of(combination);
+  const std::vector<Index> keys = combination.parameters();
   // The sign makes the first key increase.
-  const double sign = combination.direction[static_cast<Index>(keys.front())] < 0.0 ? -1.0 : 1.0;
+  const double sign = combination.direction[keys.front()] < 0.0 ? -1.0 : 1.0;
   std::vector<std::string> names;
-  for (const std::size_t k : keys) {
-    const double change = 0.5 * sign * combination.direction[static_cast<Index>(k)];
-    const FreeKey& key = fit.keys[k];
+  for (const Index k : keys) {
+    const double change = 0.5 * sign * combination.direction[k];
+    const FreeKey& key = fit.keys[static_cast<std::size_t>(k)];
     names.push_back(key.is_logarithmic ? fmt::format("{} × {:.3g}", key.name, std::exp(change))
                                        : fmt::format("{} {:+.3g}{}{}", key.name, change * (key.to - key.from),
                                                      key.unit.empty() ? "" : " ", key.unit));
@@ -81,12 +68,14 @@ nlohmann::json json_of(const FitFile& fit, const FitResult& result) {
   nlohmann::json undetermined = nlohmann::json::array();
   for (const Combination& combination : statistics.undetermined) {
     nlohmann::json direction = nlohmann::json::object();
-    for (const std::size_t k : keys_of(combination)) {
-      direction[fit.keys[k].name] = combination.direction[static_cast<Index>(k)];
+    for (const Index k : combination.parameters()) {
+      direction[fit.keys[static_cast<std::size_t>(k)].name] = combination.direction[k];
     }
     undetermined.push_back(
         {{"direction", direction}, {"text", text_of(fit, combination)}, {"least_error", combination.least_error}});
   }
+  nlohmann::json at_end = nlohmann::json::array();
+  for (const Index k : result.minimum.at_end) at_end.push_back(fit.keys[static_cast<std::size_t>(k)].name);
   for (std::size_t i = 0; i < fit.experiments.size(); ++i) verdicts[fit.experiments[i].name] = result.verdicts[i];
   return {{"values", values},
           {"errors", errors},
@@ -95,6 +84,7 @@ nlohmann::json json_of(const FitFile& fit, const FitResult& result) {
           {"intervals_95", two},
           {"correlation", correlation},
           {"undetermined", undetermined},
+          {"at_end", at_end},
           {"chi2", result.minimum.chi2()},
           {"degrees_of_freedom", result.minimum.residuals.size() - std::ssize(fit.keys)},
           {"converged", result.minimum.converged},

@@ -20,8 +20,8 @@ struct FitPaths {
   [[nodiscard]] std::filesystem::path best(const FitFile& fit, const Experiment& experiment) const;
 };
 
-/// Content of fit.json: values, errors and units by key, intervals, correlation, undetermined combinations, chi2,
-/// degrees_of_freedom, converged, evaluations, verdicts.
+/// Content of fit.json: values, errors and units by key, intervals, correlation, undetermined combinations, keys
+/// at an end of their intervals, chi2, degrees_of_freedom, converged, evaluations, verdicts.
 nlohmann::json json_of(const FitFile& fit, const FitResult& result);
 
 /// One row for each datum: experiment, abscissa, its value, φ of a contour, quantity, datum, deviation, model, and the

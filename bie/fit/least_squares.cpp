@@ -83,6 +83,12 @@ class Residuals {
       current_.jacobian.col(k) =
           (forward_.col(k) - *backward[i].values).cwiseQuotient(2.0 * current_.steps[k] * problem_.deviations);
     }
+    for (Index k = 0; k < steps_.size(); ++k) {
+      const Vector slope = current_.jacobian.col(k);
+      const double step = slope.dot(current_.residuals) / slope.squaredNorm();
+      const bool would_leave = !is_within(neighbour(k, step), k);
+      if (would_leave && (step * slope).squaredNorm() > converged_decrease) current_.at_end.push_back(k);
+    }
     current_.converged = current_.converged || has_converged;
     current_.n_evaluations = n_evaluations_;
     return current_;

@@ -27,6 +27,8 @@ struct Minimum {
   Vector residuals;  ///< (d_i − m_i)/s_i, [n_data]
   Matrix jacobian;   ///< ∂m_i/∂p_k / s_i, [n_data x n_parameters]; central differences, one-sided at bounds
   Vector steps;      ///< h_k of these differences, [n_parameters]
+  /// Parameters at an end of their intervals: χ² would still fall if one of them alone moved beyond it.
+  std::vector<Index> at_end{};
   bool converged = false;
   int n_evaluations = 0;  ///< of the model, each at one point
 

@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -44,10 +45,16 @@ std::vector<Combination> undetermined_combinations(const LeastSquares& problem, 
   std::vector<Combination> undetermined;
   for (Index i = 0; i < svd.singularValues().size(); ++i) {
     const Vector v = svd.matrixV().col(i);
-    if (svd.singularValues()[i] > error * v.cwiseQuotient(minimum.steps).norm()) continue;
+    const double jacobian_error = error * v.cwiseQuotient(minimum.steps).norm();
+    if (svd.singularValues()[i] > jacobian_error) continue;
     const double room = room_along(problem, minimum.point, v);
-    Vector change = change_along(problem, minimum, room * v) / room;
     double change_error = error / room;
+    if (!(change_error < jacobian_error)) {
+      // An end of an interval is too near for a longer step.
+      undetermined.push_back({v, 1.0 / jacobian_error});
+      continue;
+    }
+    Vector change = change_along(problem, minimum, room * v) / room;
     if (change.norm() > change_error) {
       // The change may come from the curvature of a line of equal models: Richardson removes that.
       change = (8.0 * change_along(problem, minimum, 0.5 * room * v) / room - change) / 3.0;
@@ -59,7 +66,19 @@ std::vector<Combination> undetermined_combinations(const LeastSquares& problem, 
   return undetermined;
 }
 
-Statistics statistics_of(const Matrix& jacobian, std::vector<Combination> undetermined) {
+std::vector<Index> Combination::parameters() const {
+  constexpr double least_share = 0.05;
+  std::vector<Index> parameters;
+  for (Index k = 0; k < direction.size(); ++k) {
+    if (std::abs(direction[k]) >= least_share) parameters.push_back(k);
+  }
+  std::ranges::stable_sort(parameters, std::greater{}, [&](Index k) { return std::abs(direction[k]); });
+  return parameters;
+}
+
+Statistics statistics_of(const Matrix& jacobian, std::vector<Combination> undetermined,
+                         const std::vector<Index>& at_end) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Index n = jacobian.cols();
   Statistics result;
   const Matrix determined = complement_of(undetermined, n);
@@ -74,9 +93,11 @@ Statistics statistics_of(const Matrix& jacobian, std::vector<Combination> undete
   for (const Combination& combination : undetermined) {
     for (Index k = 0; k < n; ++k) {
       const double moved = std::abs(combination.direction[k]) * combination.least_error;
-      if (moved > left[k]) result.errors[k] = std::numeric_limits<double>::infinity();
+      if (moved > left[k]) result.errors[k] = infinity;
     }
+    for (const Index k : combination.parameters()) result.errors[k] = infinity;
   }
+  for (const Index k : at_end) result.errors[k] = infinity;
   result.correlation = Matrix::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
   for (Index i = 0; i < n; ++i) {
     for (Index k = 0; k < n; ++k) {

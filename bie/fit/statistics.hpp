@@ -11,6 +11,9 @@ namespace vehd {
 struct Combination {
   Vector direction;          ///< unit vector in p, [n_parameters], along which the model hardly changes
   double least_error = 0.0;  ///< its standard error is at least this
+
+  /// Those with a share of at least 0.05, largest first.
+  [[nodiscard]] std::vector<Index> parameters() const;
 };
 
 /// Errors and correlations of parameters, from the linearised model.
@@ -26,14 +29,17 @@ struct Statistics {
 /// that is differentiated again, along v, with a step H as long as the intervals allow, at most 0.5. If this finds a
 /// change, H/2 is used as well (Richardson). v is undetermined if |Jv| is then below η √(N/2)/H, the error of this
 /// difference, or 2.7 times that. Its standard error 1/|Jv| is thus at least 0.37 √(2/N) H/η: 0.5 for H = 0.5 and a
-/// `run_error` of run_error_in_deviations.
+/// `run_error` of run_error_in_deviations. If the intervals allow no longer step than those of the Jacobian, v remains
+/// undetermined.
 /// @param minimum  its jacobian is improved in these directions
 std::vector<Combination> undetermined_combinations(const LeastSquares& problem, Minimum& minimum);
 
-/// Covariance, errors and correlations. A parameter is not determined if an undetermined combination, moved by its
-/// least error, moves it by more than its standard error from the other combinations.
+/// Covariance, errors and correlations. A parameter is not determined if it is one of an undetermined combination's, or
+/// if that, moved by its least error, moves it by more than its standard error from the other combinations.
 /// @param jacobian  J = ∂m_i/∂p_k / s_i, [n_data x n_parameters]
+/// @param at_end    parameters at an end of their intervals, which are not determined either
 /// Accuracy: rounding, for a linear model (tests/fit/statistics_test.cpp)
-Statistics statistics_of(const Matrix& jacobian, std::vector<Combination> undetermined);
+Statistics statistics_of(const Matrix& jacobian, std::vector<Combination> undetermined,
+                         const std::vector<Index>& at_end = {});
 
 }  // namespace vehd

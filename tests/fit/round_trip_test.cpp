@@ -124,6 +124,16 @@ BOOST_AUTO_TEST_CASE(combinations_that_charging_does_not_determine_are_reported)
   BOOST_TEST(json["errors"]["membrane.capacitance"].is_null());
   BOOST_TEST(json["intervals_68"]["membrane.capacitance"].is_null());
   BOOST_TEST(json["undetermined"].size() == 1u);
+  BOOST_TEST(json["at_end"].empty());
+}
+
+BOOST_AUTO_TEST_CASE(keys_at_an_end_of_their_intervals_have_no_intervals_of_errors) {
+  const ChargingFit charging;
+  const vehd::FitFile fit = charging.fit("\"membrane.conductance\" = {from = \"25 S/m^2\", to = \"200 S/m^2\"}\n");
+  const nlohmann::json json = vehd::json_of(fit, charging.result(fit));
+  BOOST_TEST(json["at_end"] == nlohmann::json({"membrane.conductance"}));
+  BOOST_TEST(json["errors"]["membrane.conductance"].is_null());
+  BOOST_TEST(json["intervals_95"]["membrane.conductance"].is_null());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -99,6 +99,37 @@ BOOST_AUTO_TEST_CASE(a_ratio_leaves_both_of_its_parts_undetermined) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_ratio_in_a_corner_of_the_intervals_of_its_parts_gives_neither_an_interval) {
+  // The data have p0 - p1 = 0.2, the intervals allow 0.5 or more: at the least, neither sign of (1, 1) stays inside.
+  vehd::LeastSquares problem = problem_of(decay_by_ratio, Vector{{0.3, 0.1}}, 0.01);
+  problem.lower = Vector{{1.0, -2.0}};
+  problem.upper = Vector{{3.0, 0.5}};
+  problem.start = Vector{{1.5, 0.0}};
+  vehd::Minimum minimum = vehd::minimum_of(problem);
+  BOOST_TEST(minimum.at_end == (std::vector<Index>{0, 1}), boost::test_tools::per_element());
+  BOOST_TEST((minimum.point - Vector{{1.0, 0.5}}).norm() < 0.01);
+  for (const Vector& point : {minimum.point, Vector{{1.0, 0.5}}}) {
+    minimum.point = point;
+    const vehd::Statistics result =
+        vehd::statistics_of(minimum.jacobian, vehd::undetermined_combinations(problem, minimum));
+    BOOST_TEST(result.undetermined.size() == 1u);
+    for (const double error : result.errors) BOOST_TEST(std::isinf(error));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_parameter_at_an_end_of_its_interval_has_no_error) {
+  vehd::LeastSquares problem = problem_of(straight_line, Vector{{1.0, 2.0}}, 0.01);
+  BOOST_TEST(vehd::minimum_of(problem).at_end.empty());
+  problem.upper[1] = 1.9;
+  problem.start[1] = 1.5;
+  const vehd::Minimum minimum = vehd::minimum_of(problem);
+  BOOST_TEST(minimum.at_end == std::vector<Index>{1}, boost::test_tools::per_element());
+  const vehd::Statistics result = vehd::statistics_of(minimum.jacobian, {}, minimum.at_end);
+  BOOST_TEST(std::isfinite(result.errors[0]));
+  BOOST_TEST(std::isinf(result.errors[1]));
+  BOOST_TEST(std::isnan(result.correlation(0, 1)));
+}
+
 BOOST_AUTO_TEST_CASE(what_is_determined_beside_an_undetermined_pair_keeps_its_interval) {
   const auto model = [](const Vector& p) {
     Vector values(2 * n_data);
