@@ -136,6 +136,11 @@ void RunReader::require_one_vesicle(const std::string& who) const {
   file_.refuse(fmt::format("holds {} vesicles; {} accepts a run of one", n_vesicles_, who));
 }
 
+std::optional<std::int64_t> RunSnapshot::checksum() const {
+  if (!file_.has(seal_path(group_))) return std::nullopt;
+  return seal_checksum(file_.text(seal_path(group_)));
+}
+
 std::string RunSnapshot::group_of(std::size_t vesicle) const {
   return group_ + (n_vesicles_ > 1 ? fmt::format("/vesicles/{:02d}", vesicle) : "");
 }

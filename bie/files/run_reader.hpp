@@ -45,6 +45,8 @@ class RunSnapshot {
   /// Name of the file in messages.
   [[nodiscard]] const std::string& name() const { return file_.name(); }
   [[nodiscard]] std::size_t n_vesicles() const { return n_vesicles_; }
+  /// Checksum of its seal; nullopt without seals.
+  [[nodiscard]] std::optional<std::int64_t> checksum() const;
   /// Number of steps of the run until this snapshot.
   /// @throws InputError
   [[nodiscard]] std::int64_t step() const { return file_.integer_attribute(group_, "step"); }

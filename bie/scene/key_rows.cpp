@@ -66,6 +66,8 @@ void add_shape(auto& scene) {
            {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units", required});
   file.key("time", &ShapeScene::time, not_negative,
            {"t", "time", "time of the snapshot in that run; absent: the last one"});
+  file.key("checksum", &ShapeScene::checksum,
+           {"", "1", "of the snapshot; absent: any, and the effective scene has that of the file"});
   shape.key("area", &ShapeScene::area, positive, {"A", "area", "the shape is scaled to this area; not with scale"});
   shape.key("scale", &ShapeScene::scale, size_range, {"", "1", "the shape is scaled by this factor; not with area"});
   shape.key("rotation", &ShapeScene::rotation,
@@ -298,8 +300,9 @@ void add_numerics(auto& scene) {
   numerics.key("end_time", &NumericsScene::end_time, not_negative,
                {"", "time", "0 solves and writes the initial state alone", required});
   numerics.word("until", &NumericsScene::until, {"end_time", "rest"},
-                "rest: the run ends earlier, once no waveform changes any more and the shape would change by less than "
-                "the tolerance (1e-3 without one) up to end_time at its present rate");
+                "rest: the run ends earlier, once no waveform changes any more and shape, V_m, pores and places beside "
+                "a wall or others would change by less than the tolerance (1e-3 without one) up to end_time at their "
+                "present rates");
   numerics.word("symmetry", &NumericsScene::symmetry, {"auto", "off", "axisymmetric"},
                 "use what is found; use none; refuse a scene that is not axisymmetric about any axis");
   numerics.key(

@@ -66,9 +66,10 @@ struct ShapeScene {
   std::optional<double> amplitude;  ///< absent: radius = base + s, otherwise base + amplitude exp(exponent s)
   double exponent = 1.0;
   std::vector<HarmonicMode> modes;
-  std::string path;            ///< absolute path of a run.h5
-  std::optional<double> time;  ///< absent: the last snapshot
-  std::optional<double> area;  ///< at most one of area and scale is present
+  std::string path;                      ///< absolute path of a run.h5
+  std::optional<double> time;            ///< absent: the last snapshot, if there is no scale for its time
+  std::optional<std::int64_t> checksum;  ///< of the snapshot; absent: the file has no seals
+  std::optional<double> area;            ///< at most one of area and scale is present
   std::optional<double> scale;
   std::optional<AxisAngle> rotation;
   Triple centre{0.0, 0.0, 0.0};

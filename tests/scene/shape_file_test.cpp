@@ -230,6 +230,20 @@ BOOST_AUTO_TEST_CASE(a_potential_that_no_file_has_is_refused) {
       "scene.toml:9: \"initial_Vm\" in [electric] is file, but the shape is not from a file; accepted: zero, steady");
 }
 
+BOOST_AUTO_TEST_CASE(the_effective_scene_fixes_the_shape_of_a_file_that_may_change) {
+  const StoredRun run(ellipsoid + numerics), other(ellipsoid + electric + numerics);
+  const std::string text = run.scene("", "", "");
+  const auto effective = [&](const std::string& scene) { return vehd::effective_scene(run.parsed(scene)); };
+  const std::string fixed = effective(text);
+  BOOST_TEST(fixed.find("\ntime = 4.0\n") != std::string::npos, fixed);
+  BOOST_TEST(effective(fixed) == fixed);
+  BOOST_TEST(effective(run.scene("", "time = 4\n", "")) == fixed);
+  std::filesystem::copy_file(other.path(), run.path(), std::filesystem::copy_options::overwrite_existing);
+  BOOST_TEST(effective(text) != fixed);
+  BOOST_TEST(run.message(fixed).ends_with("\"checksum\" in [shape] is not that of FILE, which has changed"),
+             run.message(fixed));
+}
+
 BOOST_AUTO_TEST_CASE(every_dataset_says_what_its_numbers_are_in_si) {
   const vehd::UnitsScene units{2.0, 3.0, 5.0, 7.0};
   const StoredRun with(units_text(units) + ellipsoid + electric + numerics), without(ellipsoid + electric + numerics);

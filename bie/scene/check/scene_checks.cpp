@@ -317,6 +317,7 @@ class SceneChecks {
       refuse_if(!run.find(time), "shape.time", "{} is {}, at which {} has no snapshot; the nearest is at {}",
                 time_text(*shape.time), shape.path, time_text(run.times()[run.nearest(time)] * factor));
     }
+    refuse_if(!fix_snapshot(scene_, run), "shape.checksum", "{} is not that of {}, which has changed", shape.path);
     if (!scene_.electric || has_averaged_field(scene_) || has_relaxing_charge(scene_)) return;
     const bool has_potential = start_snapshot(run, scene_).has_field("Vm");
     if (has_potential && !file_.table["electric"]["initial_Vm"].is_string()) {

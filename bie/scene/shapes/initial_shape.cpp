@@ -170,6 +170,15 @@ RunSnapshot start_snapshot(const RunReader& run, const Scene& scene) {
   return run.snapshot(run.at(*scene.shape.time / factor_from(run, scene, &UnitsScene::time)));
 }
 
+bool fix_snapshot(Scene& scene, const RunReader& run) {
+  const RunSnapshot snapshot = start_snapshot(run, scene);
+  ShapeScene& shape = scene.shape;
+  const auto factor = conversion(units_of(run), scene.units, &UnitsScene::time);
+  if (!shape.time && factor) shape.time = *factor * snapshot.time();
+  if (!shape.checksum) shape.checksum = snapshot.checksum();
+  return shape.checksum == snapshot.checksum();
+}
+
 Matrix initial_position(const Scene& scene) { return initial_membrane(scene).position; }
 
 Extremes radius_extremes(const Scene& scene) {

@@ -28,6 +28,12 @@ bool has_reduced_volume(const Scene& scene);
 /// @throws InputError if there is none
 RunSnapshot start_snapshot(const RunReader& run, const Scene& scene);
 
+/// Adds time and checksum of its snapshot to a scene of [shape] kind "file" that lacks them. They fix the shape, which
+/// the path alone does not.
+/// @return whether the snapshot has the checksum of the scene
+/// @throws InputError if there is no snapshot
+bool fix_snapshot(Scene& scene, const RunReader& run);
+
 /// Smallest and largest value.
 struct Extremes {
   double least = 0.0, most = 0.0;
