@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <string_view>
 
 #include "bie/support/errors.hpp"
 
@@ -70,12 +71,18 @@ CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()) {
   if (!stream) throw InputError(fmt::format("{}: no such file, or it cannot be read", file_));
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
+    if (constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; number == 1 && line.starts_with(byte_order_mark)) {
+      line.erase(0, byte_order_mark.size());
+    }
     const std::string content = trimmed(line);
     if (content.empty() || content.front() == '#') continue;
     std::vector<std::string> cells = csv_cells(content);
     std::ranges::transform(cells, cells.begin(), trimmed);
     if (header_line_ == 0) {
       header_line_ = number;
+      if (cells.size() == 1 && content.find(';') != std::string::npos) {
+        throw InputError(fmt::format("{}: has cells between semicolons; accepted: commas", header_place()));
+      }
       for (const std::string& cell : cells) {
         auto [name, unit] = header_parts(cell);
         names_.push_back(std::move(name));
@@ -94,7 +101,12 @@ CsvTable::CsvTable(const std::filesystem::path& file) : file_(file.string()) {
 std::optional<std::size_t> CsvTable::find(const std::string& name) const {
   const auto found = std::ranges::find(names_, name);
   if (found == names_.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - names_.begin());
+  const auto column = found - names_.begin();
+  if (const auto other = std::find(found + 1, names_.end(), name); other != names_.end()) {
+    throw InputError(fmt::format("{}: columns {} and {} are \"{}\"; accepted: one of them", header_place(), column + 1,
+                                 other - names_.begin() + 1, shortened(name)));
+  }
+  return static_cast<std::size_t>(column);
 }
 
 double CsvTable::number(std::size_t row, std::size_t column) const {

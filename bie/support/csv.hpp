@@ -23,7 +23,7 @@ double number_of_cell(const std::string& cell);
 std::pair<std::string, std::string> header_parts(const std::string& header);
 
 /// A CSV file whose header names each column and its unit, "time [ms]". Blanks around cells, empty lines and lines that
-/// begin with # are skipped.
+/// begin with # are skipped, and so is a byte order mark.
 class CsvTable {
  public:
   /// @throws InputError "file:line: ..." if it cannot be read or a row has more or fewer cells than the header
@@ -35,6 +35,7 @@ class CsvTable {
   /// Unit of a column as written; empty if it has none.
   [[nodiscard]] const std::string& unit(std::size_t column) const { return units_[column]; }
   /// Index of the column of that name; nullopt if there is none.
+  /// @throws InputError if there are two
   [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
   /// A cell as it is written, without blanks around it.
   [[nodiscard]] const std::string& text(std::size_t row, std::size_t column) const { return rows_[row].cells[column]; }

@@ -29,6 +29,9 @@ BOOST_AUTO_TEST_CASE(a_table_has_the_lines_of_its_file) {
   BOOST_TEST(table.text(0, 1) == "x");
   BOOST_TEST(table.header_place() == directory / "some.csv:3");
   BOOST_TEST(table.place(0) == directory / "some.csv:5");
+  // Spreadsheets begin files with a byte order mark.
+  write_text(directory / "some.csv", "\xEF\xBB\xBFtime,time\n1,2\n");
+  BOOST_TEST(vehd::CsvTable(directory / "some.csv").names().front() == "time");
   // As the table of failures of a bench without any.
   write_text(directory / "some.csv", "");
   BOOST_TEST(vehd::CsvTable(directory / "some.csv").n_rows() == 0U);
