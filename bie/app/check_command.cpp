@@ -54,8 +54,8 @@ ExitCode check(const CheckOptions& options) {
                  .quick = options.quick,
                  .required = options.required,
                  .n_ranks = options.ranks};
-  for (const std::string& note : task.frozen.notes) fmt::print(stderr, "{}\n", note);
   if (options.from) task.span = read_time_span(options.scene.file, *options.from, task.frozen);
+  for (const std::string& note : task.frozen.notes) fmt::print(stderr, "{}\n", note);
   task.on_solved = [first = true](const CheckFields& fields) mutable {
     print_solved(fields, std::exchange(first, false));
   };
@@ -90,7 +90,7 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
           "--require", options->required,
           "Largest error of either method, as a share of each field, with which they may agree; 0.02 if left out, 0.05 "
           "with --quick")
-      ->check(CLI::Range(1e-9, 1.0));
+      ->check(number_in(1e-9, 1.0));
   command
       ->add_option(
           "--ranks", options->ranks,

@@ -127,7 +127,7 @@ void take_shapes(const RunReader& run, std::size_t first, std::size_t last, bool
 
 }  // namespace
 
-TimeSpan read_time_span(const std::filesystem::path& file, const std::string& from, const FrozenState& end) {
+TimeSpan read_time_span(const std::filesystem::path& file, const std::string& from, FrozenState& end) {
   const auto refuse_if = [&](bool problem, const std::string& what) {
     if (problem) throw InputError(fmt::format("{}: {}", file.string(), what));
   };
@@ -145,6 +145,7 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
   const RunReader run = read_snapshots(file, notes);
   const GivenTimes times(run, file);
   const SnapshotChoice choice = choose_snapshot(run, file, times.number_of(from), times.shown());
+  if (!choice.note.empty()) end.notes.push_back(choice.note);
   TimeSpan span;
   span.begin = run.times()[choice.snapshot];
   span.end = end.state.time;

@@ -37,9 +37,9 @@ constexpr double still_motion = 1e-6;
 
 /// @param file  a run.h5
 /// @param from  time of the first snapshot as text, see read_frozen_state
-/// @param end   state of the last snapshot
+/// @param end   state of the last snapshot; its notes receive the time taken instead of `from`
 /// @throws InputError if there is no such time before the end, no V_m, or a field that jumps or alternates too often
-TimeSpan read_time_span(const std::filesystem::path& file, const std::string& from, const FrozenState& end);
+TimeSpan read_time_span(const std::filesystem::path& file, const std::string& from, FrozenState& end);
 
 /// V_m at the end of a span by boundary integrals, with the shape held at that of the end: coefficients
 /// [n_coefficients].

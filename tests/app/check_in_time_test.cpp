@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(steps_of_a_moving_shape_count_as_an_error_of_the_run) {
       "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
       "[numerics]\norder = 8\ndt = 0.1\nend_time = 0.6\n[output]\nevery = 0.2\n");
   const std::string file = run.output + "/run.h5";
-  const FrozenState end = vehd::read_frozen_state({file, {}}, "0.6");
+  FrozenState end = vehd::read_frozen_state({file, {}}, "0.6");
   vehd::TimeSpan span = vehd::read_time_span(file, "0.2", end);
   BOOST_TEST_REQUIRE(span.positions.size() == 3U);
   const vehd::Vector& stored = end.state.vesicles.front().transmembrane_potential;
@@ -161,11 +161,11 @@ BOOST_AUTO_TEST_CASE(steps_resolve_each_period_of_the_field) {
       "[electric.waveform]\nkind = 'burst'\nfrequency = 20.0\nstart = 0.0\nduration = 4.0\n"
       "[numerics]\norder = 4\ntime_order = 3\ndt = 0.0125\nend_time = 6.0\n[output]\ntimes = [3.0, 3.5, 4.0]\n");
   const std::string file = run.output + "/run.h5";
-  const FrozenState end = vehd::read_frozen_state({file, {}}, "4.0");
+  FrozenState end = vehd::read_frozen_state({file, {}}, "4.0");
   BOOST_TEST(vehd::read_time_span(file, "3.0", end).fewest_steps == 128);
   BOOST_TEST(vehd::read_time_span(file, "3.5", end).fewest_steps == 64);
   // Without a field no steps resolve it.
-  const FrozenState after = vehd::read_frozen_state({file, {}}, "6.0");
+  FrozenState after = vehd::read_frozen_state({file, {}}, "6.0");
   BOOST_TEST(vehd::read_time_span(file, "3.5", after).fewest_steps == 64);
   BOOST_TEST(vehd::read_time_span(file, "4.0", after).fewest_steps == 4);
 
@@ -178,6 +178,18 @@ BOOST_AUTO_TEST_CASE(steps_resolve_each_period_of_the_field) {
   BOOST_TEST(refused.errors == file +
                                    ": the field has 80 periods between --from and --time; accepted: at most 64, with "
                                    "times that are closer to each other\n");
+}
+
+// Regression: only another --time was named.
+BOOST_AUTO_TEST_CASE(time_taken_instead_of_the_first_one_is_named) {
+  const FinishedRun run(charging_scene);
+  const std::string file = run.output + "/run.h5";
+  FrozenState end = vehd::read_frozen_state({file, {}}, "1.0");
+  vehd::read_time_span(file, "0.4", end);
+  BOOST_TEST(end.notes.empty());
+  BOOST_TEST(vehd::read_time_span(file, "0.45", end).begin == 0.4);
+  BOOST_TEST_REQUIRE(end.notes.size() == 1U);
+  BOOST_TEST(end.notes.front() == file + ": no snapshot at time 0.45; taken: the nearest, at 0.4");
 }
 
 BOOST_AUTO_TEST_CASE(span_that_is_none_is_refused) {
