@@ -88,22 +88,28 @@ std::string dimension_of(const Scene& scene, const std::string& quantity, const 
 
 double unit_factor(const Scene& scene, const std::string& dimension, const std::string& unit,
                    const std::string& place) {
-  if (dimension == "1" || !scene.units) {
+  const Dimension* known = find_dimension(dimension);
+  if (known == nullptr || !scene.units) {
     if (unit.empty()) return 1.0;
     throw InputError(fmt::format("{}: has the unit \"{}\"; accepted: none, of {}", place, shortened(unit),
-                                 dimension == "1" ? "a pure number" : "numbers of a scene without [units]"));
+                                 known == nullptr ? "a pure number" : "numbers of a scene without [units]"));
   }
-  const Dimension& known = *find_dimension(dimension);
   const auto quantity = parse_quantity("1 " + unit);
-  if (const Unit* found = known.find(quantity ? quantity->unit : unit); found != nullptr && !unit.empty()) {
-    return found->times / found->over;
+  if (const Unit* found = known->find(quantity ? quantity->unit : unit); found != nullptr && !unit.empty()) {
+    if (found->per_kelvin && !scene.units->temperature) {
+      throw InputError(
+          fmt::format("{}: has the unit \"{}\", but the scene has no temperature; accepted: \"temperature\" in [units] "
+                      "with the unit K",
+                      place, unit));
+    }
+    return Quantity{1.0, ""}.in_si(*found, scene.units->temperature);
   }
   // Units of results have prefixes that values of a scene do not accept.
   const OutputUnit result = OutputUnits(scene.units, {{dimension, unit}}).of(dimension);
   if (result.is_si()) return si_scale(scene.units, dimension) / result.factor;
   throw InputError(fmt::format("{}: has {} for a {}; accepted: {}", place,
                                unit.empty() ? "no unit" : fmt::format("the unit \"{}\"", shortened(unit)), dimension,
-                               known.accepted()));
+                               known->accepted()));
 }
 
 std::vector<DataOfRun> runs_of(const Measured& measured, const std::vector<Datum>& data) {

@@ -60,6 +60,32 @@ BOOST_AUTO_TEST_CASE(data_are_read_in_their_units) {
   BOOST_TEST(fit.keys.front().start == 1e-19, boost::test_tools::tolerance(1e-12));
 }
 
+BOOST_AUTO_TEST_CASE(energies_are_the_same_in_all_their_units) {
+  const Folder folder;
+  write_text(folder.directory / "scene.toml", quick_scene_with_units(units + "temperature = \"300 K\"\n"));
+  const std::string of_energy =
+      "[[experiment]]\nscene = \"scene.toml\"\ndata = \"data.csv\"\nquantity = \"tension_integral\"\n";
+  constexpr double energy = 2e-18, kBT = 300.0 * vehd::boltzmann_constant;
+  const std::pair<const char*, double> all_units[] = {{"J", 1.0}, {"fJ", 1e-15}, {"aJ", 1e-18}, {"kBT", kBT}};
+  for (const auto& [unit, size] : all_units) {
+    const std::string number = fmt::format("{:.17g}", energy / size);
+    folder.write_data(fmt::format("time [ms],tension_integral [{0}],deviation [{0}]\n1,{1},{1}\n", unit, number));
+    const vehd::Datum read = folder.fit(of_energy + free_keys).experiments.front().data.front();
+    BOOST_TEST(read.value == energy, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(read.deviation == energy, boost::test_tools::tolerance(1e-14));
+    folder.write_data("time [ms],tension_integral [J]\n1,0\n");
+    const std::string given = fmt::format("deviation = \"{} {}\"\n", number, unit);
+    BOOST_TEST(folder.fit(of_energy + given + free_keys).experiments.front().data.front().deviation == energy,
+               boost::test_tools::tolerance(1e-14));
+  }
+  write_text(folder.directory / "scene.toml", quick_scene_with_units(units));
+  folder.write_data("time [ms],tension_integral [kBT],deviation [J]\n1,1,1\n");
+  BOOST_TEST(
+      folder.refusal(of_energy + free_keys) ==
+      "data.csv:1: has the unit \"kBT\", but the scene has no temperature; accepted: \"temperature\" in [units] with "
+      "the unit K");
+}
+
 BOOST_AUTO_TEST_CASE(data_against_a_key_are_one_run_for_each_of_its_values) {
   const Folder folder;
   folder.write_data(
