@@ -33,7 +33,9 @@ void read_abscissa(Experiment& experiment, const CsvTable& table) {
   measured.abscissa = table.names().front();
   measured.abscissa_unit = table.unit(0);
   if (!measured.is_against_time()) {
-    static_cast<void>(keys_named(measured.abscissa, table.header_place(), "the first column, which is time or a key"));
+    const KeyDescription& key =
+        *keys_named(measured.abscissa, table.header_place(), "the first column, which is time or a key").front();
+    unit_factor(experiment.scene, std::string(key.unit), measured.abscissa_unit, table.header_place());
     return;
   }
   measured.abscissa_factor = unit_factor(experiment.scene, "time", measured.abscissa_unit, table.header_place());

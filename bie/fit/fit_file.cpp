@@ -70,16 +70,14 @@ double start_of(const FreeKey& key, const KeyDescription& description, const Sce
   if (number == nullptr) return middle;
   double start = *number;
   if (!key.unit.empty()) {
-    const Dimension* dimension = find_dimension(description.unit);
-    const Unit* unit = dimension != nullptr ? dimension->find(parse_quantity("1 " + key.unit)->unit) : nullptr;
-    if (unit == nullptr || !scene.units) return middle;
-    start *= si_scale(scene.units, description.unit) / Quantity{1.0, ""}.in_si(*unit, scene.units->temperature);
+    start *= si_scale(scene.units, description.unit) /
+             unit_factor(scene, std::string(description.unit), key.unit, key.place);
   }
   return start > key.from && start < key.to ? start : middle;
 }
 
 /// One key of [free].
-FreeKey free_key_in(const std::string& name, const NamedTable& table, const Scene& scene) {
+FreeKey free_key_in(const std::string& name, const NamedTable& table, const std::vector<Experiment>& experiments) {
   table.require_words({"from", "to", "scale"});
   FreeKey key;
   key.name = name;
@@ -93,6 +91,13 @@ FreeKey free_key_in(const std::string& name, const NamedTable& table, const Scen
   if (from.unit != to.unit) {
     table.refuse(to_node, "goes from \"{}\" to \"{}\"; accepted: one unit", from.unit, to.unit);
   }
+  for (const Experiment& experiment : experiments) {
+    unit_factor(experiment.scene, std::string(description.unit), from.unit,
+                fmt::format("{}: {}", key.place, table.name));
+    if (experiment.measured.abscissa == name) {
+      table.refuse(table.entries, "is varied by the data of \"{}\"; accepted: another key", experiment.name);
+    }
+  }
   key.is_logarithmic = table.word("scale", {"log", "linear"}) == "log";
   key.unit = from.written;
   key.from = from.number;
@@ -103,7 +108,7 @@ FreeKey free_key_in(const std::string& name, const NamedTable& table, const Scen
   if (key.is_logarithmic && !(key.from > 0.0)) {
     table.refuse(from_node, "goes from {}; accepted: a number above 0, or scale = \"linear\"", key.from);
   }
-  key.start = start_of(key, description, scene);
+  key.start = start_of(key, description, experiments.front().scene);
   return key;
 }
 
@@ -133,7 +138,7 @@ FitFile parse_fit(const std::string& text, const std::string& name, const std::f
   fit.file = name;
   fit.experiments = experiments_in(file, folder);
   for_each_key(file, "free", "{from, to, scale}", [&](const std::string& key, const NamedTable& table) {
-    fit.keys.push_back(free_key_in(key, table, fit.experiments.front().scene));
+    fit.keys.push_back(free_key_in(key, table, fit.experiments));
   });
   std::size_t n_data = 0;
   for (const Experiment& experiment : fit.experiments) n_data += experiment.data.size();

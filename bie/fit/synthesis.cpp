@@ -42,18 +42,20 @@ std::vector<std::string> times_of(const Scene& scene) {
 }
 
 /// Values of the varied key without their unit.
-std::vector<std::string> values_of(const Synthesis& synthesis, std::string& unit) {
-  static_cast<void>(keys_named(synthesis.key, "--vary " + synthesis.key, "a scene"));
+std::vector<std::string> values_of(const Synthesis& synthesis, const Scene& scene, std::string& unit) {
+  const std::string option = "--vary " + synthesis.key;
+  const KeyDescription& key = *keys_named(synthesis.key, option, "a scene").front();
   std::vector<std::string> texts;
   for (const std::string& value : synthesis.values) {
     const auto quantity = parse_quantity(value);
     if (!quantity || (!texts.empty() && quantity->written != unit)) {
-      throw InputError(fmt::format("--vary {}: has the value \"{}\"; accepted: numbers of one unit", synthesis.key,
-                                   shortened(value)));
+      throw InputError(
+          fmt::format("{}: has the value \"{}\"; accepted: numbers of one unit", option, shortened(value)));
     }
     unit = quantity->written;
     texts.push_back(fmt::format("{}", quantity->number));
   }
+  unit_factor(scene, std::string(key.unit), unit, option);
   return texts;
 }
 
@@ -77,7 +79,7 @@ Experiment experiment_of(const Synthesis& synthesis) {
     abscissae = times_of(experiment.scene);
   } else {
     measured.abscissa = synthesis.key;
-    abscissae = values_of(synthesis, measured.abscissa_unit);
+    abscissae = values_of(synthesis, experiment.scene, measured.abscissa_unit);
   }
   double variance = std::pow(given_size(experiment, synthesis.noise, "--noise"), 2);
   if (measured.is_contour() && !synthesis.pixel.empty()) {

@@ -126,6 +126,10 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_data_name_their_line) {
   BOOST_TEST(refusal_of("electric.conductivity_inn [mS/m],extent_z [um],deviation [um]\n1,21,1\n")
                  .find("did you mean \"conductivity_in\"?") != std::string::npos);
   BOOST_TEST(refusal_of("electric.conductivity_in [mV],extent_z [um],deviation [um]\n1,21,1\n")
+                 .starts_with("data.csv:1: has the unit \"mV\" for a conductivity; accepted: S/m"));
+  BOOST_TEST(refusal_of("electric.conductivity_in,extent_z [um],deviation [um]\n1,21,1\n")
+                 .starts_with("data.csv:1: has no unit for a conductivity; accepted: S/m"));
+  BOOST_TEST(refusal_of("electric.conductivity_in [mS/m],extent_z [um],deviation [um]\n-1,21,1\n")
                  .starts_with("data.csv:2: --set electric.conductivity_in="));
   BOOST_TEST(refusal_of("time [ms],extent_z [um],deviation [um]\n") ==
              "data.csv: holds no numbers; accepted: a header and rows below it");
@@ -158,6 +162,10 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_fit_name_their_line) {
   BOOST_TEST(
       refusal_of("\"shape.kind\" = {from = 1, to = 2}\n").starts_with("fit.toml:6: \"shape.kind\" in [free] is "));
   BOOST_TEST(refusal_of("\"membrane.bending_modulus\" = {from = \"1 V\", to = \"2 V\"}\n")
+                 .starts_with("fit.toml:6: \"membrane.bending_modulus\" in [free]: has the unit \"V\" for a energy"));
+  BOOST_TEST(refusal_of("\"membrane.bending_modulus\" = {from = 1, to = 2}\n")
+                 .starts_with("fit.toml:6: \"membrane.bending_modulus\" in [free]: has no unit for a energy"));
+  BOOST_TEST(refusal_of("\"membrane.bending_modulus\" = {from = \"-1 J\", to = \"2 J\", scale = \"linear\"}\n")
                  .starts_with("fit.toml:6: --set membrane.bending_modulus="));
   BOOST_TEST(refusal_of("membrane.bending_modulus = 1\n") ==
              "fit.toml:6: \"membrane.bending_modulus\" in [free] is 1; accepted: {from, to, scale}");
@@ -165,6 +173,26 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_fit_name_their_line) {
              "fit.toml:6: missing key \"to\" in \"membrane.bending_modulus\" in [free]; accepted: a number");
   BOOST_TEST(refusal_of("\"membrane.bending_modulus\" = {from = 1, till = 2}\n") ==
              "fit.toml:6: unknown key \"till\" in \"membrane.bending_modulus\" in [free]; accepted: from, to, scale");
+}
+
+BOOST_AUTO_TEST_CASE(a_key_that_the_data_vary_is_not_free) {
+  const Folder folder;
+  folder.write_data("membrane.bending_modulus [J],extent_z [um],deviation [um]\n1e-19,21,0.1\n2e-19,22,0.1\n");
+  BOOST_TEST(
+      folder.refusal() ==
+      "fit.toml:6: \"membrane.bending_modulus\" in [free] is varied by the data of \"data\"; accepted: another key");
+}
+
+// In units of each scene's own scales, a free key would have another value in each scene.
+BOOST_AUTO_TEST_CASE(a_free_key_has_a_unit_if_any_scene_has_units) {
+  const Folder folder;
+  write_text(folder.directory / "plain.toml", quick_scene());
+  write_text(folder.directory / "plain.csv", "time,extent_z,deviation\n1,2,0.1\n");
+  const std::string plain = "[[experiment]]\nscene = \"plain.toml\"\ndata = \"plain.csv\"\nquantity = \"extent_z\"\n";
+  const std::string numbers = "[free]\n\"membrane.bending_modulus\" = {from = 0.05, to = 5}\n";
+  BOOST_TEST(folder.refusal(plain + numbers) == "accepted");
+  BOOST_TEST(folder.refusal(plain + experiment + numbers)
+                 .starts_with("fit.toml:10: \"membrane.bending_modulus\" in [free]: has no unit for a energy"));
 }
 
 BOOST_AUTO_TEST_CASE(contours_are_those_of_one_vesicle) {
