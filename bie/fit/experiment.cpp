@@ -47,6 +47,10 @@ std::vector<double> deviations_in(const Experiment& experiment, const CsvTable& 
   const Measured& measured = experiment.measured;
   std::vector<double> deviations(table.n_rows());
   if (const auto column = table.find(deviation_column)) {
+    if (given) {
+      throw InputError(fmt::format("{}: has a column \"{}\", and the experiment a \"deviation\"; accepted: one of them",
+                                   table.header_place(), deviation_column));
+    }
     const double factor = unit_factor(experiment.scene, measured.dimension, table.unit(*column), table.header_place());
     for (std::size_t row = 0; row < deviations.size(); ++row) {
       deviations[row] = factor * table.number(row, *column);
@@ -79,6 +83,9 @@ std::string dimension_of(const Scene& scene, const std::string& quantity, const 
                                  quantity, scene.vesicles.size()));
   }
   if (quantity == contour_quantity) return "length";
+  if (quantity == "time") {
+    throw InputError(fmt::format("{}: \"quantity\" is \"time\"; accepted: another column of history.csv", place));
+  }
   const std::vector<HistoryColumn>& columns = history_columns(history_kind(scene));
   const auto found = std::ranges::find(columns, quantity, &HistoryColumn::name);
   if (found != columns.end()) return std::string(found->dimension);

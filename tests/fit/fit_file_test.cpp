@@ -131,8 +131,15 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_data_name_their_line) {
                  .starts_with("data.csv:1: has no unit for a conductivity; accepted: S/m"));
   BOOST_TEST(refusal_of("electric.conductivity_in [mS/m],extent_z [um],deviation [um]\n-1,21,1\n")
                  .starts_with("data.csv:2: --set electric.conductivity_in="));
+  BOOST_TEST(refusal_of("time [ms],extent_z [um],extent_z [nm],deviation [um]\n1,21,21,1\n") ==
+             "data.csv:1: columns 2 and 3 are \"extent_z\"; accepted: one of them");
+  BOOST_TEST(refusal_of("time [ms];extent_z [um];deviation [um]\n1;21;1\n") ==
+             "data.csv:1: has cells between semicolons; accepted: commas");
   BOOST_TEST(refusal_of("time [ms],extent_z [um],deviation [um]\n") ==
              "data.csv: holds no numbers; accepted: a header and rows below it");
+  folder.write_data("time [ms],extent_z [um],deviation [um]\n1,21,1\n");
+  BOOST_TEST(folder.refusal(experiment + "deviation = \"1 um\"\n" + free_keys) ==
+             "data.csv:1: has a column \"deviation\", and the experiment a \"deviation\"; accepted: one of them");
 }
 
 BOOST_AUTO_TEST_CASE(mistakes_in_the_fit_name_their_line) {
@@ -147,6 +154,8 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_fit_name_their_line) {
              "fit.toml:2: \"scene\" in [[experiment]] is the text 'none.toml': no such file");
   BOOST_TEST(folder.refusal("[[experiment]]\nscene = \"scene.toml\"\ndata = \"data.csv\"\nquantity = \"extent_q\"\n")
                  .starts_with("fit.toml:4: \"quantity\" is \"extent_q\", which history.csv of the scene has not"));
+  BOOST_TEST(folder.refusal("[[experiment]]\nscene = \"scene.toml\"\ndata = \"data.csv\"\nquantity = \"time\"\n") ==
+             "fit.toml:4: \"quantity\" is \"time\"; accepted: another column of history.csv");
   BOOST_TEST(folder.refusal(experiment + experiment)
                  .starts_with("fit.toml:5: an experiment has the name \"data\", as another one has"));
   const auto refusal_of = [&](const std::string& key) { return folder.refusal(experiment + "[free]\n" + key); };
@@ -167,6 +176,9 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_fit_name_their_line) {
                  .starts_with("fit.toml:6: \"membrane.bending_modulus\" in [free]: has no unit for a energy"));
   BOOST_TEST(refusal_of("\"membrane.bending_modulus\" = {from = \"-1 J\", to = \"2 J\", scale = \"linear\"}\n")
                  .starts_with("fit.toml:6: --set membrane.bending_modulus="));
+  BOOST_TEST(refusal_of("\"membrane.bending_modulus\" = {from = \"1 J\", to = \"2 J\"}\n"
+                        "[free.membrane]\nbending_modulus = {from = \"1 J\", to = \"2 J\"}\n") ==
+             "fit.toml:6: \"membrane.bending_modulus\" in [free] is also at fit.toml:8; accepted: once");
   BOOST_TEST(refusal_of("membrane.bending_modulus = 1\n") ==
              "fit.toml:6: \"membrane.bending_modulus\" in [free] is 1; accepted: {from, to, scale}");
   BOOST_TEST(refusal_of("\"membrane.bending_modulus\" = {from = 1}\n") ==

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "bie/scene/nearest_name.hpp"
@@ -329,7 +330,13 @@ void for_each_key(const TomlFile& file, const std::string& table, std::string_vi
   if (keys == nullptr || keys->empty()) {
     throw InputError(fmt::format("{}:1: missing table [{}]; accepted: \"table.key\" = {}", file.name, table, accepted));
   }
-  visit_keys({file, *keys, fmt::format("[{}]", table)}, "", accepted, visit);
+  std::map<std::string, std::string> places;
+  visit_keys({file, *keys, fmt::format("[{}]", table)}, "", accepted,
+             [&](const std::string& key, const NamedTable& values) {
+               const auto [first, is_new] = places.try_emplace(key, place(values.entries, file.name));
+               if (!is_new) values.refuse(values.entries, "is also at {}; accepted: once", first->second);
+               visit(key, values);
+             });
 }
 
 std::optional<double> number_of(const toml::node& node) {

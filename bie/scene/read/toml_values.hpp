@@ -81,7 +81,7 @@ struct NamedTable {
 
 /// Visits the keys of a scene that a table lists with a table for each. They may also be written without quotes, as
 /// nested tables: flow.rate = {...}.
-/// @throws InputError if there are none, or if one has no table
+/// @throws InputError if there are none, or if one has no table or two
 void for_each_key(const TomlFile& file, const std::string& table, std::string_view accepted,
                   const std::function<void(const std::string& key, const NamedTable& values)>& visit);
 
