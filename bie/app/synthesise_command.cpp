@@ -44,6 +44,9 @@ ExitCode synthesise(const SynthesiseOptions& options) {
   synthesis.source = options.scene;
   read_varied(synthesis, options.vary);
   const Experiment experiment = experiment_of(synthesis);
+  if (std::filesystem::exists(options.output)) {
+    throw InputError(fmt::format("-o {}: exists already; accepted: a new file", options.output.string()));
+  }
   if (options.output.has_parent_path()) make_directory(options.output.parent_path());
   Vector values;
   {
@@ -79,16 +82,19 @@ void add_synthesise_command(CLI::App& program, ExitCode& exit_code) {
   command->add_option("--noise", synthesis.noise, "Standard deviation of each value, as in 0.01 or \"2 mV\"")
       ->type_name("SIZE")
       ->required();
-  command->add_option("--seed", synthesis.seed, "Of the noise")->type_name("N")->capture_default_str();
+  command->add_option("--seed", synthesis.seed, "Of the noise")
+      ->type_name("N")
+      ->check(CLI::Validator(
+          [](const std::string& text) { return text.starts_with('-') ? text + " is below 0" : std::string(); }, ""))
+      ->capture_default_str();
   command
       ->add_option("--vary", options->vary,
                    "A value at the end of a run for each of these, in place of one at each snapshot, as in "
                    "\"electric.waveform.frequency=1 kHz,10 kHz\"")
       ->type_name("TABLE.KEY=VALUES");
-  command->add_option("--angles", synthesis.n_angles, "Of a contour, evenly spaced")
+  command->add_option("--angles", synthesis.n_angles, "Of a contour, evenly spaced; 64 if not given")
       ->type_name("N")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
+      ->check(CLI::Range(1, 10000));
   command
       ->add_option("--pixel", synthesis.pixel,
                    "Points of a contour come to the nearest pixel of this side, as in \"0.1 um\"")

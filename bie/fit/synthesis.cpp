@@ -68,6 +68,10 @@ Experiment experiment_of(const Synthesis& synthesis) {
   Measured& measured = experiment.measured;
   measured.quantity = synthesis.quantity;
   measured.dimension = dimension_of(experiment.scene, synthesis.quantity, "--quantity " + synthesis.quantity);
+  if (!measured.is_contour() && (synthesis.n_angles || !synthesis.pixel.empty())) {
+    throw InputError(fmt::format("--quantity {}: has no angles and pixels; accepted with {}: contour",
+                                 synthesis.quantity, synthesis.n_angles ? "--angles" : "--pixel"));
+  }
   const OutputUnits units(experiment.scene);
   measured.unit = units.of(measured.dimension).symbol;
   if (experiment.scene.units)
@@ -85,7 +89,7 @@ Experiment experiment_of(const Synthesis& synthesis) {
   if (measured.is_contour() && !synthesis.pixel.empty()) {
     variance += std::pow(given_size(experiment, synthesis.pixel, "--pixel"), 2) / 12.0;
   }
-  const int n_angles = measured.is_contour() ? synthesis.n_angles : 1;
+  const int n_angles = measured.is_contour() ? synthesis.n_angles.value_or(64) : 1;
   for (const std::string& at : abscissae) {
     for (int k = 0; k < n_angles; ++k) {
       Datum datum{.at = at, .angle_deg = 360.0 * k / n_angles, .deviation = std::sqrt(variance)};
@@ -105,6 +109,10 @@ Vector simulated_values(Experiment experiment, const RunWork& work, Interruption
   Vector values;
   for (const double tolerance : {loosest_tolerance, 0.0}) {
     only.tolerance = tolerance > 0.0 ? tolerance : tolerance_for(only.data, run_error_share);
+    if (only.tolerance <= tightest_tolerance) {
+      throw InputError(fmt::format("--noise: is too small for runs; accepted: more than {:g} of the largest value",
+                                   tightest_tolerance / run_error_share));
+    }
     Prediction prediction = runs.predict({{}}).front();
     if (!prediction.values) {
       throw InputError(fmt::format("{}: {}", only.source.file.string(), prediction.problem));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct Synthesis {
   std::vector<std::string> values{};  ///< of the key, "10 kHz"
   std::string noise{};                ///< standard deviation, "2 mV"
   std::string pixel{};                ///< of a contour, whose points are moved to the nearest pixel; empty: none
-  int n_angles = 64;                  ///< of a contour
+  std::optional<int> n_angles{};      ///< of a contour; 64 if not given
   std::uint64_t seed = 1;
 };
 
@@ -28,7 +29,8 @@ Experiment experiment_of(const Synthesis& synthesis);
 
 /// Model values of an experiment, [experiment.data.size()], from runs with a tolerance of a hundredth of the noise. A
 /// first set of runs determines the size of the values.
-/// @throws InputError if a run does not reach its end; Interrupted, OutputError
+/// @throws InputError if a run does not reach its end or the noise needs a smaller tolerance than runs accept;
+/// Interrupted, OutputError
 Vector simulated_values(Experiment experiment, const RunWork& work, Interruption& interruption);
 
 /// CSV of the model values with noise: abscissa, angle of a contour, quantity, deviation.

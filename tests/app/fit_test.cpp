@@ -60,6 +60,24 @@ BOOST_FIXTURE_TEST_CASE(data_are_those_of_their_seed, FitWork) {
   BOOST_TEST(file_text(data).starts_with("time [ms],Vm_north [mV],deviation [mV]\n0,"), file_text(data));
 }
 
+BOOST_FIXTURE_TEST_CASE(noise_that_runs_do_not_reach_is_refused, FitWork) {
+  const ProgramResult result = run_vehd(
+      {"synthesise", scene, "-o", directory / "exact.csv", "--quantity", "Vm_north", "--noise", "1e-9 mV", "--quiet"});
+  BOOST_TEST(result.exit_code == 1);
+  BOOST_TEST(
+      result.errors.starts_with("--noise: is too small for runs; accepted: more than 1e-07 of the largest value"),
+      result.errors);
+}
+
+BOOST_FIXTURE_TEST_CASE(data_replace_no_file, FitWork) {
+  write_text(directory / "measured.csv", "mine");
+  const ProgramResult result = make_data(directory / "measured.csv", "1");
+  BOOST_TEST(result.exit_code == 1);
+  BOOST_TEST(result.errors.find("measured.csv: exists already; accepted: a new file") != std::string::npos,
+             result.errors);
+  BOOST_TEST(file_text(directory / "measured.csv") == "mine");
+}
+
 BOOST_FIXTURE_TEST_CASE(a_signal_leaves_a_fit_that_goes_on, FitWork) {
   const std::string undisturbed = directory / "undisturbed";
   BOOST_TEST_REQUIRE(run_command(command(undisturbed)).exit_code == 0);
@@ -94,6 +112,15 @@ BOOST_FIXTURE_TEST_CASE(mistakes_of_options_are_said, FitWork) {
       std::string::npos);
   BOOST_TEST(refusal({"--quantity", "Vm_north", "--noise", "1 mV", "--vary", "flow.rate"})
                  .starts_with("--vary flow.rate: accepted: table.key=VALUE"));
+  BOOST_TEST(refusal({"--quantity", "Vm_north", "--noise", "1 mV", "--vary", "membrane.capacitance=0.5,0.6"})
+                 .starts_with("--vary membrane.capacitance: has no unit for a capacitance/area"));
+  BOOST_TEST(refusal({"--quantity", "time", "--noise", "1 ms"}).find("\"quantity\" is \"time\"") != std::string::npos);
+  for (const char* option : {"--angles=8", "--pixel=1 um"}) {
+    BOOST_TEST(refusal({"--quantity", "Vm_north", "--noise", "1 mV", option})
+                   .starts_with("--quantity Vm_north: has no angles and pixels; accepted with --"));
+  }
+  BOOST_TEST(refusal({"--quantity", "Vm_north", "--noise", "1 mV", "--seed=-1"}).find("-1 is below 0") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
