@@ -147,7 +147,7 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
       ->check(time_text());
   choice->add_option("--tolerance", options->tolerances, "Tolerances, falling; the last is the reference")
       ->delimiter(',')
-      ->check(CLI::Range(1e-9, 0.1));
+      ->check(number_in(1e-9, 0.1));
   choice->require_option(1, 2);
   command->add_option("--time-orders", options->time_orders, "Integrators for --dt; that of the scene if not given")
       ->delimiter(',')

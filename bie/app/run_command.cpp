@@ -151,7 +151,7 @@ void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code)
       ->add_option("--checkpoint-every", options->checkpoint_every,
                    "Least time between two checkpoints, which a kill may lose; 0: one after every step")
       ->type_name("SECONDS")
-      ->check(CLI::Range(0.0, 86400.0))
+      ->check(number_in(0.0, 86400.0))
       ->capture_default_str();
   command->add_flag("--no-plot", options->no_plot, "Draw no pictures at the end");
   command->add_flag("--quiet", options->quiet, "Show no progress");

@@ -95,6 +95,15 @@ std::filesystem::path default_directory(const std::filesystem::path& scene_file)
   return std::filesystem::path("out") / scene_file.stem();
 }
 
+CLI::Validator number_in(double least, double most) {
+  const auto check = [least, most](const std::string& text) -> std::string {
+    double number = 0.0;
+    if (CLI::detail::lexical_cast(text, number) && least <= number && number <= most) return "";
+    return fmt::format("is {}; accepted: a number from {:g} to {:g}", text, least, most);
+  };
+  return CLI::Validator(check, fmt::format("FLOAT in [{:g} - {:g}]", least, most));
+}
+
 CLI::Validator one_of(std::vector<std::string> words) {
   const std::string list = fmt::format("{{{}}}", fmt::join(words, ","));
   const auto check = [words = std::move(words)](const std::string& word) -> std::string {

@@ -46,6 +46,9 @@ void add_snapshot_time(CLI::App& command, std::optional<std::string>& time);
 /// Default directory for the results of a scene: out/NAME of NAME.toml.
 std::filesystem::path default_directory(const std::filesystem::path& scene_file);
 
+/// Accepts finite numbers of a range; CLI::Range accepts nan.
+CLI::Validator number_in(double least, double most);
+
 /// Accepts only these words. An error names the nearest one; help and completion list all.
 CLI::Validator one_of(std::vector<std::string> words);
 

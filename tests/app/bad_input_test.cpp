@@ -116,6 +116,17 @@ BOOST_FIXTURE_TEST_CASE(directory_that_holds_a_run, FinishedRun) {
   BOOST_TEST((file_text(output + "/run.h5") == snapshots));
 }
 
+BOOST_FIXTURE_TEST_CASE(nan_is_in_no_range, SceneCase) {
+  write_text(file, quick_scene());
+  check_refused({"run", file, "-o", output, "--checkpoint-every", "nan"},
+                "vehd run: --checkpoint-every: is nan; accepted: a number from 0 to 86400; see vehd run --help");
+  check_refused({"check", file, "--require", "nan"},
+                "vehd check: --require: is nan; accepted: a number from 1e-09 to 1; see vehd check --help");
+  check_refused({"bench", "time", file, "--at", "1", "--tolerance", "1e-3,nan"},
+                "vehd bench: --tolerance: is nan; accepted: a number from 1e-09 to 0.1; see vehd bench --help");
+  BOOST_TEST(!std::filesystem::exists(output));
+}
+
 BOOST_FIXTURE_TEST_CASE(foreign_history_is_not_overwritten, SceneCase) {
   write_text(file, quick_scene());
   std::filesystem::create_directory(output);
