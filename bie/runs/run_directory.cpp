@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <vector>
 
 namespace vehd {
 
@@ -31,9 +32,28 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& lock_file)
 
 DirectoryLock::~DirectoryLock() { ::close(descriptor_); }
 
+namespace {
+
+/// Sweeps and fits would take the files of a run for their own.
+void refuse_sweeps_and_fits(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files{directory / "sweep.json", directory / "fit.json", directory / "runs"};
+  std::error_code ignored;
+  if (std::filesystem::equivalent(directory, directory / "../runs", ignored)) {
+    files.insert(files.end(), {directory / "../sweep.json", directory / "../fit.json"});
+  }
+  for (const auto& file : files) {
+    if (!std::filesystem::exists(file)) continue;
+    throw InputError(fmt::format("{}: belongs to a sweep or a fit ({}); choose another -o", directory.string(),
+                                 file.filename().string()));
+  }
+}
+
+}  // namespace
+
 bool admit_run(const RunPaths& paths, bool resume) {
   const bool resumable = std::filesystem::exists(paths.checkpoint());
   if (resume && resumable) return true;
+  refuse_sweeps_and_fits(paths.directory);
   for (const auto& file : {paths.checkpoint(), paths.history(), paths.history_error(), paths.vesicles(),
                            paths.snapshots(), paths.xdmf(), paths.summary(), paths.scene()}) {
     if (!std::filesystem::exists(file)) continue;

@@ -50,7 +50,7 @@ class DirectoryLock {
 };
 
 /// Refuses a directory that holds files of a run, unless they can be resumed and `resume` is true: files of an earlier
-/// run are never overwritten. @throws InputError
+/// run are never overwritten. Refuses directories of sweeps and fits. @throws InputError
 /// @return whether there is a run to resume
 bool admit_run(const RunPaths& paths, bool resume);
 

@@ -127,6 +127,20 @@ BOOST_FIXTURE_TEST_CASE(nan_is_in_no_range, SceneCase) {
   BOOST_TEST(!std::filesystem::exists(output));
 }
 
+BOOST_FIXTURE_TEST_CASE(directories_of_sweeps_and_fits_are_not_for_runs, SceneCase) {
+  write_text(file, quick_scene());
+  for (const std::string sign : {"sweep.json", "fit.json", "runs"}) {
+    const TemporaryDirectory folder;
+    std::filesystem::create_directory(folder / "runs");
+    if (sign != "runs") write_text(folder / sign, "");
+    for (const char* place : {"", "runs", "runs/"}) {
+      if (sign == "runs" && *place != '\0') continue;
+      check_refused({"run", file, "-o", folder / place},
+                    folder / place + ": belongs to a sweep or a fit (" + sign + "); choose another -o");
+    }
+  }
+}
+
 BOOST_FIXTURE_TEST_CASE(foreign_history_is_not_overwritten, SceneCase) {
   write_text(file, quick_scene());
   std::filesystem::create_directory(output);
