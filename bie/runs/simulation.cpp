@@ -140,10 +140,8 @@ bool Simulation::at_rest() const {
   if (numerics.until != RunsUntil::rest) return false;
   constexpr double without_tolerance = 1e-3;
   const double time = evolution_.state().time;
-  const auto changes = [&](const VesicleDiagnostics& vesicle) {
-    return !(vesicle.shape_rate * (numerics.end_time - time) < numerics.tolerance.value_or(without_tolerance));
-  };
-  if (std::ranges::any_of(evolution_.evaluation().diagnostics.vesicles, changes)) return false;
+  const double change = evolution_.largest_rate() * (numerics.end_time - time);
+  if (!(change < numerics.tolerance.value_or(without_tolerance))) return false;
   for (const Scene& one : each_alone(scene_)) {
     for (const ActingWaveform& acting : acting_waveforms(one)) {
       if (acting.waveform.kind == WaveformKind::ac) return false;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bie/stepping/evaluation/initial_state.hpp"
+#include "bie/stepping/evaluation/rest.hpp"
 #include "bie/stepping/evaluation/smallest_gap.hpp"
 #include "bie/stepping/evaluation/wrinkling.hpp"
 #include "bie/stepping/space/resolution.hpp"
@@ -105,6 +106,8 @@ class Evolution {
   [[nodiscard]] Resolution resolution(const State& state, std::size_t vesicle) const;
   /// Smallest gap between two vesicles, or between a vesicle and the wall.
   [[nodiscard]] const SmallestGap& gap() const { return gap_; }
+  /// See largest_rate() of a state.
+  [[nodiscard]] double largest_rate() const { return vehd::largest_rate(setup_.model, state_, evaluation_); }
 
  private:
   [[nodiscard]] bool adapts() const { return setup_.control.tolerance > 0.0; }

@@ -155,6 +155,38 @@ BOOST_AUTO_TEST_CASE(a_run_until_rest_ends_where_its_shape_does) {
   BOOST_TEST(run.simulation().at_end());
 }
 
+namespace {
+
+/// Values of a column at the end of a run until rest.
+double at_rest(const std::string& scene, const char* column) {
+  const Directory folder;
+  vehd::Interruption interruption;
+  const std::string numerics = "[numerics]\ndegree = 8\ndt = 0.2\ntime_order = 2\nend_time = 40\nuntil = \"rest\"\n";
+  BOOST_TEST(vehd::simulate({vehd::parse_scene(scene + numerics, "scene.toml", "."), folder.paths, {}}, interruption)
+                 .completed);
+  return vehd::HistoryTable(folder.paths.history()).column(column).back();
+}
+
+}  // namespace
+
+// With equal fluids and an uncharged membrane the field exerts no force at first.
+BOOST_AUTO_TEST_CASE(a_run_until_rest_waits_for_the_membrane_to_charge) {
+  for (const char* mobile : {"mobile = false\n", "bending_modulus = 0.1\n"}) {
+    const std::string scene = std::string("[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1]\n[membrane]\n") + mobile +
+                              "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 1\n";
+    BOOST_TEST(std::abs(at_rest(scene, "Vm_pole_plus")) == 1.5, boost::test_tools::tolerance(1e-3));
+  }
+}
+
+// A sphere has no shape to change, but it sinks; at this height it meets the wall only later.
+BOOST_AUTO_TEST_CASE(a_run_until_rest_waits_for_a_vesicle_that_sinks_to_a_wall) {
+  const double left = at_rest(
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1]\ncentre = [0, 0, 12]\n[fluid]\ndensity_difference = 1\n"
+      "[gravity]\nacceleration = [0, 0, -1]\n[wall]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nflow = \"no-slip\"\n",
+      "centroid_z");
+  BOOST_TEST(left < 6.0);
+}
+
 BOOST_AUTO_TEST_CASE(a_run_until_rest_waits_for_its_waveforms) {
   vehd::Scene scene = switched();
   scene.shape.axes = {1.0, 1.0, 1.0};
