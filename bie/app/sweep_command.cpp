@@ -184,6 +184,7 @@ void add_sweep_command(CLI::App& program, ExitCode& exit_code) {
                    "With --emit: lines of shell before the work of each job, such as module load; lines that begin "
                    "with #SBATCH come first")
       ->type_name("FILE")
+      ->check(CLI::ExistingFile)
       ->needs(emit);
   command
       ->add_option("--turns", options->n_turns,

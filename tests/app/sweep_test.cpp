@@ -226,6 +226,10 @@ BOOST_FIXTURE_TEST_CASE(a_slurm_script_has_the_options_of_the_cluster, SweepWork
   const std::string first = "--parsable " + output + "/sweep.sbatch\n",
                     next = "--parsable --dependency=afterany:7 " + output + "/sweep.sbatch\n";
   BOOST_TEST(turns.errors == first + next + next);
+  const ProgramResult absent = run({"--emit", "slurm", "--prologue", directory / "absent.sh"});
+  BOOST_TEST(absent.exit_code == 1);
+  BOOST_TEST(absent.errors.find("--prologue: File does not exist: " + (directory / "absent.sh")) != std::string::npos,
+             absent.errors);
   // These options require --emit.
   BOOST_TEST(run({"--account", "cells"}).exit_code == 1);
   BOOST_TEST(run({"--emit", "slurm", "--account", "a\"b"}).errors.find("a line #SBATCH cannot hold") !=
