@@ -86,6 +86,16 @@ class Errors(InFolder):
         tables["numerics"] = {"degree": np.int8(6), "dt": np.array(0.5), "end_time": np.longdouble(1.0)}
         self.assertEqual(vehd.Scene.from_dict(tables), expected)
 
+    def test_shapes_name_arguments_in_place_of_lines(self):
+        from_shape, sphere = vehd.Surface.from_shape, vehd.Surface.sphere
+        for take, message in ((lambda: sphere(8, 1.0), '"degree" is 1.0; accepted: an integer'),
+                              (lambda: sphere("1"), "radius is '1'; accepted: a number above 0"),
+                              (lambda: from_shape("ellipsod"), '"kind" is the text .* did you mean "ellipsoid"'),
+                              (lambda: from_shape(axis=[1, 1, 2]), 'unknown key "axis"; did you mean "axes"'),
+                              (lambda: from_shape(axes=[1, 2]), '"axes" has 2 components; accepted: 3 numbers')):
+            with self.assertRaisesRegex(vehd.InputError, "^" + message):
+                take()
+
     def test_exceptions_are_those_of_python_as_well(self):
         self.assertTrue(issubclass(vehd.SceneError, vehd.InputError))
         self.assertTrue(issubclass(vehd.InputError, ValueError))

@@ -1,5 +1,6 @@
 """Surfaces, harmonics and layer operators."""
 
+import re
 from typing import Any, Optional
 
 import numpy as np
@@ -101,16 +102,20 @@ class Surface:
         """A shape as in the table [shape] of a scene: from_shape("ellipsoid", axes=[1, 1, 2]),
         from_shape("radial", base=1, amplitude=0.2, exponent=-3, modes=[{"n": 3, "m": 2, "a": 1}]), …
 
-        SceneError: as of a scene.
+        SceneError: as of a scene, without place.
         """
         tables = {"shape": {"kind": kind, **keys}, "membrane": {}, "numerics": {"degree": degree, "dt": 1.0,
                                                                               "end_time": 0.0}}
-        return cls(Scene.from_dict(tables).position(), upsampling, quadrature)
+        try:
+            scene = Scene.from_dict(tables)
+        except _core.SceneError as error:  # the caller knows arguments, and neither lines nor tables
+            raise _core.SceneError(re.sub(r'^dict:\d+: |(?<=") in \[(shape|numerics)\]', "", str(error))) from None
+        return cls(scene.position(), upsampling, quadrature)
 
     @classmethod
     def sphere(cls, radius: float = 1.0, degree: int = 16, **keys: Any) -> "Surface":
         """A sphere about the origin."""
-        return cls.from_shape("ellipsoid", degree, axes=[radius] * 3, **keys)
+        return cls.from_shape("ellipsoid", degree, axes=[real("radius", radius, above=0.0)] * 3, **keys)
 
     @property
     def degree(self) -> int:
