@@ -102,6 +102,11 @@ toml::table table_of(const py::dict& dict) {
   toml::table table;
   for (const auto& [key, value] : dict) {
     const auto name = fitting<std::string>(py::str(key), "dict", "keys of Unicode characters");
+    if (name.find_first_of("\n\t") != std::string::npos) {
+      // toml++ may write them without quotes.
+      throw SceneProblem(fmt::format("dict: {} is a key; accepted: keys without line breaks and tabs",
+                                     std::string(py::repr(py::str(key)))));
+    }
     with_value(value, name, [&](const auto& entry) { table.insert(name, entry); });
   }
   return table;

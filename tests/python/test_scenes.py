@@ -72,6 +72,12 @@ class Errors(InFolder):
         for wrong in (2**70, -2**64, "\udc80", np.complex64(1j), None, {1}, np.array([1 + 1j])):
             with self.subTest(wrong=repr(wrong)), self.assertRaisesRegex(vehd.SceneError, '"axes" is .*; accepted: '):
                 vehd.Scene.from_dict({"shape": {"axes": wrong}})
+        for key in ("a\nb", "a\tb"):
+            for tables in ({key: {"kind": 1}}, {"shape": {key: 1}}):
+                with self.assertRaisesRegex(vehd.SceneError, r"'a\\[nt]b' is a key; accepted: "):
+                    vehd.Scene.from_dict(tables)
+        with self.assertRaisesRegex(vehd.SceneError, "dict:[0-9]+: unknown table"):
+            vehd.Scene.from_dict({'sh"ape\'': {"kind": 1}})
         nested = {}
         nested["shape"] = {"kind": [nested]}
         with self.assertRaises(RecursionError):
