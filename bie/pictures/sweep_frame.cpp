@@ -36,8 +36,9 @@ std::optional<KeyNumbers> numbers_of(const std::vector<std::string>& texts) {
   return numbers;
 }
 
-std::string tick_text(const std::string& value) {
-  const auto quantity = parse_quantity(value);
+/// @param of_one_unit  whether the axis has the unit
+std::string tick_text(const std::string& value, bool of_one_unit) {
+  const auto quantity = of_one_unit ? parse_quantity(value) : std::nullopt;
   return quantity ? fmt::format("{:.3g}", quantity->number) : gnuplot_literal(value);
 }
 
@@ -48,16 +49,16 @@ std::string label_of(const std::string& key, const std::optional<KeyNumbers>& nu
   return with_unit(key_label(key), numbers ? numbers->unit : "");
 }
 
-SweepAxis side_by_side(const std::string& label, const std::vector<std::string>& values) {
+SweepAxis side_by_side(const std::string& label, const std::vector<std::string>& values, bool of_one_unit) {
   SweepAxis axis{label, {}, {}};
   constexpr std::size_t long_text = 6;
-  const bool has_long_texts =
-      std::ranges::any_of(values, [](const std::string& value) { return tick_text(value).size() > long_text; });
+  const bool has_long_texts = std::ranges::any_of(
+      values, [&](const std::string& value) { return tick_text(value, of_one_unit).size() > long_text; });
   const std::size_t most = has_long_texts ? most_ticks / 2 : most_ticks;
   const std::size_t every = (values.size() + most - 1) / most;
   for (std::size_t i = 0; i < values.size(); ++i) {
     axis.places.push_back((static_cast<double>(i) + 0.5) / static_cast<double>(values.size()));
-    if (i % every == 0) axis.ticks.push_back({axis.places.back(), tick_text(values[i])});
+    if (i % every == 0) axis.ticks.push_back({axis.places.back(), tick_text(values[i], of_one_unit)});
   }
   return axis;
 }
@@ -111,9 +112,9 @@ bool are_even(const std::vector<double>& values) {
 SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>& values, bool is_logarithmic) {
   const auto numbers = numbers_of(values);
   const std::string label = label_of(key, numbers);
-  if (!numbers || numbers->values.empty()) return side_by_side(label, values);
+  if (!numbers || numbers->values.empty()) return side_by_side(label, values, numbers.has_value());
   const auto [least, most] = std::ranges::minmax(numbers->values);
-  if (!(most > least)) return side_by_side(label, values);
+  if (!(most > least)) return side_by_side(label, values, numbers.has_value());
   if (is_logarithmic && least > 0.0) {
     return by_logarithm(label, numbers->values, std::log10(least), std::log10(most));
   }
@@ -123,7 +124,7 @@ SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>&
 SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& values) {
   const auto numbers = numbers_of(values);
   const std::string label = label_of(key, numbers);
-  if (!numbers || values.size() <= most_ticks) return side_by_side(label, values);
+  if (!numbers || values.size() <= most_ticks) return side_by_side(label, values, numbers.has_value());
   const std::vector<double>& even = numbers->values;
   // From the outer edge of the first cell to that of the last one.
   const double half = 0.5 / static_cast<double>(even.size() - 1);
@@ -136,7 +137,7 @@ SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& 
   }
   std::vector<double> powers;
   for (const double value : even) powers.push_back(std::log10(value));
-  if (!are_even(powers)) return side_by_side(label, values);
+  if (!are_even(powers)) return side_by_side(label, values, numbers.has_value());
   const auto [lower, upper] = ends(powers.front(), powers.back());
   return by_logarithm(label, even, lower, upper);
 }

@@ -53,4 +53,13 @@ BOOST_AUTO_TEST_CASE(other_cells_have_the_value_that_is_theirs) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(numbers_of_several_units_keep_them) {
+  const std::vector<std::string> values{"0.2 ms", "300 us", "0.4", "1 ms"};
+  for (const vehd::SweepAxis& axis :
+       {vehd::axis_of_cells("shape.time", values), vehd::axis_of_values("shape.time", values, false)}) {
+    BOOST_TEST_REQUIRE(axis.ticks.size() == values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) BOOST_TEST(axis.ticks[i].text == values[i]);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
