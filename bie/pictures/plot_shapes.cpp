@@ -15,6 +15,7 @@
 #include "bie/scene/shapes/placement.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
+#include "bie/support/parallel.hpp"
 
 namespace vehd {
 namespace {
@@ -136,14 +137,17 @@ Page page_of(const ShapesPicture& picture, const Scene& scene, const ShapesStyle
   Page page{layout.width, layout.height};
   const int n_shapes = static_cast<int>(picture.shapes.size());
   page.images.resize(picture.shapes.size());
-#pragma omp parallel for schedule(dynamic)
-  for (int i = 0; i < n_shapes; ++i) {
+  const auto draw = [&](int i) {
     const Box& cell = layout.cells[i];
     RenderTask task{picture.view, layout.scale * page_pixels, 0, 0, style.section};
     task.width = std::max(1, static_cast<int>(std::lround(cell.width() * page_pixels)));
     task.height = std::max(1, static_cast<int>(std::lround(cell.height() * page_pixels)));
     page.images[i] = {render(picture.shapes[i].mesh, picture.colours, task), cell};
-  }
+  };
+  Exceptions exceptions(n_shapes);
+#pragma omp parallel for schedule(dynamic)
+  for (int i = 0; i < n_shapes; ++i) exceptions.keep(i, [&] { draw(i); });
+  exceptions.rethrow_first();
   for (std::size_t i = 0; i < picture.shapes.size(); ++i) {
     if (style.section) add_cut(page, picture.shapes[i], picture.view, layout.cells[i], layout.scale);
     if (const auto foot = foot_on_wall(scene, picture.shapes[i], picture.view)) {
