@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <memory>
 
 #include "bie/app/commands.hpp"
@@ -60,7 +61,18 @@ ExitCode plot_table(const PlotOptions& options, const PlotTask& task) {
 
 ExitCode plot(const PlotOptions& options) {
   const PlotTask task = task_of(options);
-  if (is_sweep(options.directory)) return plot_table(options, task);
+  if (is_sweep(options.directory)) {
+    if (!options.times.empty() || options.movie || options.style.section || !options.style.view.empty() ||
+        !options.style.field.empty()) {
+      throw InputError(
+          fmt::format("{}: is a sweep; --times, --view, --field, --section and --movie are for pictures of runs",
+                      options.directory));
+    }
+    if (options.border && !std::isfinite(*options.border)) {
+      throw InputError(fmt::format("--border: is {}; accepted: a finite number", *options.border));
+    }
+    return plot_table(options, task);
+  }
   if (!options.columns.empty() || options.border || !options.curves.empty()) {
     throw InputError(fmt::format("{}: is not a sweep; --column, --border and --curve are for pictures of sweeps",
                                  options.directory));

@@ -266,6 +266,10 @@ FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::
 
 void require_run(const RunPaths& paths) {
   if (!std::filesystem::exists(paths.snapshots())) {
+    if (std::filesystem::exists(paths.directory / "runs")) {
+      throw InputError(
+          fmt::format("{}: holds runs, but no table of a sweep yet (no sweep.json)", paths.directory.string()));
+    }
     throw InputError(fmt::format("{}: holds no run (no run.h5)", paths.directory.string()));
   }
 }

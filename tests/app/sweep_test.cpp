@@ -288,6 +288,17 @@ BOOST_FIXTURE_TEST_CASE(pictures_show_lines_of_one_key_and_maps_of_two, SweepWor
              std::string::npos);
   BOOST_TEST(run_vehd({"plot", output, "--column", "aspect_ration"}).errors.find("did you mean \"aspect_ratio\"?") !=
              std::string::npos);
+  BOOST_TEST(run_vehd({"plot", output, "--border", "nan"}).errors == "--border: is nan; accepted: a finite number\n");
+  for (const std::vector<std::string>& of_runs : std::vector<std::vector<std::string>>{
+           {"--times", "0"}, {"--view", "x"}, {"--field", "tension"}, {"--section"}, {"--movie"}}) {
+    std::vector<std::string> words{"plot", output};
+    words.insert(words.end(), of_runs.begin(), of_runs.end());
+    BOOST_TEST(run_vehd(words).errors ==
+               output + ": is a sweep; --times, --view, --field, --section and --movie are for pictures of runs\n");
+  }
+  fs::remove(output + "/sweep.json");
+  BOOST_TEST(run_vehd({"plot", output}).errors ==
+             output + ": holds runs, but no table of a sweep yet (no sweep.json)\n");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
