@@ -134,7 +134,10 @@ void HistoryFile::write(const std::string& text) {
 }
 
 HistoryTable::HistoryTable(const std::filesystem::path& path) {
-  std::ifstream stream(path);
+  std::ifstream stream;
+  std::error_code error;
+  // A pipe would wait for its writer.
+  if (std::filesystem::is_regular_file(path, error)) stream.open(path);
   *this = HistoryTable(stream, path.string());
 }
 

@@ -1,5 +1,7 @@
 #include "bie/runs/history.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -170,6 +172,15 @@ BOOST_AUTO_TEST_CASE(the_verdict_says_times_with_their_unit) {
              std::string::npos);
   BOOST_TEST(vehd::verdict_of(vehd::HistoryTable(Written({}).path), {}, "").find("since time 5 (") !=
              std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_pipe_is_no_history) {
+  const TemporaryDirectory directory;
+  const std::string file = directory / "history.csv";
+  BOOST_TEST_REQUIRE(::mkfifo(file.c_str(), 0600) == 0);
+  BOOST_CHECK_EXCEPTION(vehd::HistoryTable{file}, vehd::InputError, [&](const vehd::InputError& error) {
+    return error.what() == file + ": no such file or empty";
+  });
 }
 
 BOOST_AUTO_TEST_CASE(normal_stresses_are_differences_of_the_stress) {
