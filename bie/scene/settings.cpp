@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include "bie/scene/schema.hpp"
@@ -45,6 +47,7 @@ std::pair<std::string, std::string> assignment_of(const std::string& setting) {
     refuse(fmt::format("\"{}\" is no key", key), form);
   }
   if (n_points == 0) {
+    if (find_table(key) != nullptr) refuse(fmt::format("\"{}\" is a table", key), form);
     std::vector<std::string> names;
     for (const std::string_view table : tables_with(key)) names.push_back(fmt::format("{}.{}", table, key));
     refuse(fmt::format("\"{}\" has no table", key),
@@ -60,6 +63,14 @@ bool is_toml_value(const std::string& text) {
   } catch (const toml::parse_error&) {
     return false;
   }
+}
+
+/// Refuses numbers such as .5 and 5. that TOML writes in another way. As texts they would be wrong for every key.
+void refuse_other_numbers(const std::string& text, const std::string& setting) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(number)) return;
+  throw InputError(fmt::format("{}{}: {} is no number of TOML, which writes {}", option, setting, text, number));
 }
 
 /// Table of the vesicle that a setting "vesicle.NAME.table.key" names, and "table.key".
@@ -119,6 +130,7 @@ void apply_settings(toml::table& file, const std::vector<std::string>& settings)
     const auto [owner, own_key] =
         key.starts_with(vesicle_prefix) ? of_vesicle(file, key, setting) : std::pair(&file, key);
     erase_conflicting_keys(*owner, own_key);
+    if (!is_toml_value(given)) refuse_other_numbers(given, setting);
     const std::string value = is_toml_value(given) ? given : to_toml(Value(given));
     merge_tables(*owner, toml::parse(own_key + " = " + value + "\n", std::string(option) + setting));
   }

@@ -96,7 +96,13 @@ BOOST_AUTO_TEST_CASE(have_one_form) {
   BOOST_TEST(problem_of({"flow..rate=1"}) == "--set flow..rate=1: \"flow..rate\" is no key; " + form);
   BOOST_TEST(problem_of({"a.b.c.d=1"}) == "--set a.b.c.d=1: \"a.b.c.d\" is no key; " + form);
   BOOST_TEST(problem_of({"rate=1"}) == "--set rate=1: \"rate\" has no table; accepted: flow.rate");
+  BOOST_TEST(problem_of({"flow={}"}) == "--set flow={}: \"flow\" is a table; " + form);
   BOOST_TEST(problem_of({"rat=1"}) == "--set rat=1: \"rat\" has no table; " + form);
+}
+
+BOOST_AUTO_TEST_CASE(numbers_are_those_of_toml) {
+  BOOST_TEST(problem_of({"flow.rate=.5"}) == "--set flow.rate=.5: .5 is no number of TOML, which writes 0.5");
+  BOOST_TEST(problem_of({"flow.rate=-2."}) == "--set flow.rate=-2.: -2. is no number of TOML, which writes -2");
 }
 
 BOOST_AUTO_TEST_CASE(give_one_key_and_no_more) {
