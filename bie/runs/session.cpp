@@ -1,5 +1,8 @@
 #include "bie/runs/session.hpp"
 
+#include <fmt/format.h>
+
+#include <system_error>
 #include <utility>
 
 #include "bie/runs/history.hpp"
@@ -8,6 +11,7 @@
 #include "bie/runs/summary.hpp"
 #include "bie/runs/worst_error.hpp"
 #include "bie/scene/problem.hpp"
+#include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd {
@@ -32,6 +36,18 @@ std::string imposed_symmetry(const Scene& scene, const std::optional<Origin>& or
   return symmetry_text(problem.symmetry, problem.frame);
 }
 
+/// Refuses to resume a run from another one than that which it continues.
+void require_origin(const Checkpoint& checkpoint, const std::filesystem::path& from, const RunPaths& paths) {
+  const std::string origin = checkpoint.origin ? checkpoint.origin->run : "";
+  std::error_code ignored;
+  if (from.empty() || std::filesystem::absolute(from).lexically_normal() == origin ||
+      std::filesystem::equivalent(from, origin, ignored)) {
+    return;
+  }
+  throw InputError(fmt::format("--from {}: the run in {} continues {}; accepted: that, or no --from", from.string(),
+                               paths.directory.string(), origin.empty() ? "no other run" : origin));
+}
+
 }  // namespace
 
 RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume,
@@ -45,6 +61,7 @@ RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesy
     return;
   }
   checkpoint_ = read_checkpoint(paths_.checkpoint());
+  require_origin(*checkpoint_, from, paths_);
   require_same_physics(scene_, source, *checkpoint_, paths_);
   require_intact(paths_, *checkpoint_);
   complete_ = has_ended(scene_, *checkpoint_, paths_);

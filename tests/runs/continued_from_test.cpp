@@ -107,8 +107,18 @@ BOOST_FIXTURE_TEST_CASE(continued_runs_resume_bit_for_bit, Runs) {
   run("first", scene_text(field_along_x, 0.25));
   run("whole", scene_text(no_field, 0.5, shear), "first");
   run("parts", scene_text(no_field, 0.375, shear), "first");
-  run("parts", scene_text(no_field, 0.5, shear), "", true);
+  run("parts", scene_text(no_field, 0.4375, shear), "", true);
+  run("parts", scene_text(no_field, 0.5, shear), "./first", true);
   BOOST_TEST(file_text(history("parts")) == file_text(history("whole")));
+  for (const std::string name : {"first", "parts"}) {
+    BOOST_CHECK_EXCEPTION(run(name, scene_text(no_field, 0.75, shear), "whole", true), vehd::InputError,
+                          [&](const vehd::InputError& error) {
+                            const std::string origin = name == "first" ? "no other run" : directory / "first";
+                            return error.what() == "--from " + directory / "whole" + ": the run in " +
+                                                       directory / name + " continues " + origin +
+                                                       "; accepted: that, or no --from";
+                          });
+  }
   // A third run continues the second one.
   run("third", scene_text(field_along_x, 0.75), "whole");
   BOOST_TEST(vehd::HistoryTable(history("third")).column("time").front() == 0.5, boost::test_tools::tolerance(1e-12));
