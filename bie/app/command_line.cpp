@@ -5,7 +5,9 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "bie/app/commands.hpp"
@@ -46,10 +48,42 @@ std::string version_text() {
   return text;
 }
 
+/// Why a file cannot be an output of a command; empty unless another option names it too.
+std::string problem_of_output(const CLI::App& command, const CLI::Option& output, const std::string& file) {
+  for (const CLI::Option* other : command.get_options()) {
+    if (other == &output) continue;
+    for (const std::string& value : other->results()) {
+      std::error_code ignored;
+      if (std::filesystem::is_regular_file(value, ignored) && std::filesystem::equivalent(file, value, ignored)) {
+        return fmt::format("{} is {} as well, which it would replace", file, other->get_name());
+      }
+    }
+  }
+  return "";
+}
+
+/// Refuses empty values, which would count as none, as of an unset variable of a shell, and outputs into an input.
+void check_values(CLI::App& command) {
+  const CLI::Validator given([](const std::string& text) { return text.empty() ? "is empty; accepted: a value" : ""; },
+                             "");
+  for (CLI::Option* option : command.get_options()) {
+    option->check(given);
+    if (option->get_name() != "--json" && option->get_name() != "--output") continue;
+    const auto problem = [&command, option](const std::string& file) {
+      return problem_of_output(command, *option, file);
+    };
+    option->check(CLI::Validator(problem, ""));
+  }
+  for (CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; })) check_values(*each);
+}
+
 ExitCode fail(ExitCode code, const std::string& message) {
   fmt::print(stderr, "{}\n", message);
   return code;
 }
+
+/// Reports that standard output takes no more, for example on a full disk.
+ExitCode cannot_print() { return fail(ExitCode::wrong_input, "standard output: cannot be written"); }
 
 ExitCode parse_and_run(CLI::App& program, int argc, char** argv, ExitCode& exit_code) {
   try {
@@ -82,6 +116,7 @@ ExitCode parse_and_run(CLI::App& program, int argc, char** argv, ExitCode& exit_
     return fail(ExitCode::wrong_input, fmt::format("vehd {}: the input cannot be computed: {}",
                                                    program.get_subcommands().front()->get_name(), error.what()));
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return cannot_print();
     return fail(ExitCode::internal_error, fmt::format("internal error: {}", error.what()));
   }
   return exit_code;
@@ -126,7 +161,9 @@ int run_program(int argc, char** argv, const Ranks& ranks) {
   add_examples_command(program, exit_code);
   add_completion_command(program, exit_code);
   add_help_command(program, exit_code);
-  const ExitCode code = parse_and_run(program, argc, argv, exit_code);
+  check_values(program);
+  ExitCode code = parse_and_run(program, argc, argv, exit_code);
+  if (code == ExitCode::done && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) code = cannot_print();
   // mpirun ends all ranks as soon as one returns anything but 0.
   return ranks.is_first() ? static_cast<int>(code) : 0;
 }

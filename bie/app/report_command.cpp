@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "bie/app/commands.hpp"
 #include "bie/pictures/report/report.hpp"
+#include "bie/support/errors.hpp"
 
 namespace vehd {
 namespace {
@@ -19,6 +22,12 @@ ExitCode report(const ReportOptions& options) {
   const RunPaths paths{options.directory};
   const ReportTask task{paths, options.output.empty() ? paths.report() : std::filesystem::path(options.output),
                         options.most_snapshots};
+  for (const auto& file : {paths.snapshots(), paths.history(), paths.history_error(), paths.vesicles(), paths.summary(),
+                           paths.scene(), paths.checkpoint()}) {
+    std::error_code ignored;
+    if (!std::filesystem::equivalent(task.output, file, ignored)) continue;
+    throw InputError(fmt::format("-o {}: is a file of the run; accepted: another", options.output));
+  }
   const ReportSize size = write_report(task);
   for (const std::string& note : size.notes) fmt::print(stderr, "{}\n", note);
   fmt::print("{}: {} of {} snapshots, {:.1f} MB; open it in a browser\n", task.output.string(), size.snapshots,

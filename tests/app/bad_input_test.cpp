@@ -127,6 +127,42 @@ BOOST_FIXTURE_TEST_CASE(nan_is_in_no_range, SceneCase) {
   BOOST_TEST(!std::filesystem::exists(output));
 }
 
+BOOST_FIXTURE_TEST_CASE(no_output_replaces_an_input, FinishedRun) {
+  const std::string text = file_text(scene);
+  check_refused({"plan", scene, "--json", scene},
+                "vehd plan: --json: " + scene + " is SCENE as well, which it would replace; see vehd plan --help");
+  for (const std::string name : {"/run.h5", "/scene.toml"}) {
+    const std::string before = file_text(output + name);
+    check_refused({"report", output, "-o", output + name},
+                  "-o " + output + name + ": is a file of the run; accepted: another");
+    BOOST_TEST((file_text(output + name) == before));
+  }
+  BOOST_TEST(file_text(scene) == text);
+}
+
+BOOST_AUTO_TEST_CASE(a_full_standard_output_is_reported) {
+  for (const std::string command : {"help", "help scene"}) {
+    const ProgramResult result = run_command({"sh", "-c", "exec " VEHD_PROGRAM " " + command + " > /dev/full"});
+    BOOST_TEST(result.exit_code == 1, command);
+    BOOST_TEST(result.errors == "standard output: cannot be written\n", command);
+  }
+}
+
+BOOST_FIXTURE_TEST_CASE(empty_values_are_not_taken_for_none, SceneCase) {
+  write_text(file, quick_scene());
+  const auto check_empty = [](const std::vector<std::string>& arguments, const std::string& name) {
+    const std::string command = "vehd " + arguments.front();
+    check_refused(arguments, command + ": " + name + ": is empty; accepted: a value; see " + command + " --help");
+  };
+  check_empty({"run", file, "--from", ""}, "--from");
+  check_empty({"run", file, "-o", ""}, "--output");
+  check_empty({"run", ""}, "SCENE");
+  check_empty({"plan", file, "--json", ""}, "--json");
+  check_empty({"plot", ""}, "DIR");
+  check_empty({"report", ""}, "DIR");
+  check_empty({"bench", "time", file, "--dt", "1", "--at", "1", "-o", ""}, "--output");
+}
+
 BOOST_FIXTURE_TEST_CASE(directories_of_sweeps_and_fits_are_not_for_runs, SceneCase) {
   write_text(file, quick_scene());
   for (const std::string sign : {"sweep.json", "fit.json", "runs"}) {
