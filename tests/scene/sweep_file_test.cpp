@@ -109,6 +109,8 @@ BOOST_FIXTURE_TEST_CASE(mistakes_are_said_with_line_and_nearest_name, SweepFolde
                  .starts_with(":3: \"dt\" in [vary] is no \"table.key\" of a scene; did you mean \""));
   BOOST_TEST(refusal(start + "\"numerics.dt\" = 0.5\n").starts_with(":3: \"numerics.dt\" in [vary] is 0.5"));
   BOOST_TEST(refusal(start + "numerics.dt = 0.5\n").starts_with(":3: \"numerics.dt\" in [vary] is 0.5"));
+  BOOST_TEST(refusal(start + "\"numerics.dt\" = {values = [1]}\nnumerics.dt = {values = [2]}\n")
+                 .starts_with(":3: \"numerics.dt\" in [vary] is also at "));
   BOOST_TEST(refusal(start + "\"numerics.dt\" = {from = 0.1, count = 3}\n") ==
              ":3: missing key \"to\" in \"numerics.dt\" in [vary]; accepted: a number, or values = [...]");
   BOOST_TEST(
