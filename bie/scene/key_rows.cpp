@@ -66,7 +66,7 @@ void add_shape(auto& scene) {
            {"", "", "run.h5 that holds the shape, relative to the scene file; any degree and units", required});
   file.key("time", &ShapeScene::time, not_negative,
            {"t", "time", "time of the snapshot in that run; absent: the last one"});
-  file.key("checksum", &ShapeScene::checksum,
+  file.key("checksum", &ShapeScene::checksum, {0.0, 4294967295.0},
            {"", "1", "of the snapshot; absent: any, and the effective scene has that of the file"});
   shape.key("area", &ShapeScene::area, positive, {"A", "area", "the shape is scaled to this area; not with scale"});
   shape.key("scale", &ShapeScene::scale, size_range, {"", "1", "the shape is scaled by this factor; not with area"});
