@@ -17,6 +17,8 @@
 #include "bie/scene/reader.hpp"
 #include "bie/sphere/harmonics.hpp"
 #include "bie/stepping/evolution.hpp"
+#include "bie/stepping/solve/flow_equations.hpp"
+#include "bie/stepping/solve/rigid_sphere.hpp"
 #include "bie/stepping/space/discretisation.hpp"
 #include "bie/stepping/state/state.hpp"
 #include "bie/support/errors.hpp"
@@ -101,14 +103,26 @@ double largest_length(const Matrix& vectors) {
   return bound;
 }
 
-/// @param mobile  whether the membrane of the run moves
-void take_shapes(const RunReader& run, std::size_t first, std::size_t last, bool mobile, TimeSpan& span) {
+/// Velocity of the material. A sphere moves as a rigid one, whatever its instantaneous velocity.
+/// @param velocity  of the snapshot
+Matrix material_velocity(const FrozenState& end, const Matrix& position, const Matrix& velocity) {
+  Instruments instruments;
+  const Membrane membrane =
+      membrane_at(MembraneSpace(settings_at(end, order_of(position.rows())), {}), position, {}, 1.0, instruments);
+  const bool is_sphere = uniform_tension_is_free(flow_parameters(end.model, vesicle_of_span(end)), membrane);
+  return is_sphere ? rigid_sphere_velocity(membrane, velocity) : velocity;
+}
+
+void take_shapes(const RunReader& run, std::size_t first, std::size_t last, const FrozenState& state, TimeSpan& span) {
   int order = 0;
   for (std::size_t i = first; i <= last; ++i) {
     const RunSnapshot snapshot = run.snapshot(i);
     span.shape_times.push_back(snapshot.time());
     span.positions.push_back(resize_order(snapshot.coefficients("x", 3), snapshot.degree()));
-    if (mobile) span.velocities.push_back(snapshot.coefficients("velocity", 3));
+    if (state.model.mobile) {
+      const Matrix velocity = resize_order(snapshot.coefficients("velocity", 3), snapshot.degree());
+      span.velocities.push_back(material_velocity(state, span.positions.back(), velocity));
+    }
     order = std::max(order, order_of(span.positions.back().rows()));
   }
   for (std::vector<Matrix>* fields : {&span.positions, &span.velocities}) {
@@ -156,7 +170,7 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
   span.potential = resize_order(start.coefficients("Vm", 1), start.degree());
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
   span.control = step_control_of(scene);
-  take_shapes(run, choice.snapshot, run.nearest(span.end), end.model.mobile, span);
+  take_shapes(run, choice.snapshot, run.nearest(span.end), end, span);
   // Blocks of a mesh that ends on a wall follow the shape, and so do the directions in which it has points.
   refuse_if(end.model.wall && span.positions.size() > 1,
             "has a membrane that moves beside a wall between --from and --time; --from accepts one at rest there");

@@ -153,6 +153,19 @@ BOOST_AUTO_TEST_CASE(sphere_that_rotates_is_not_at_rest) {
   BOOST_TEST(in_time["Vm"]["verdict"].get<std::string>() == "agree", in_time.dump(1));
 }
 
+// At this instant a sphere could leave its shape, with a velocity that its material does not follow.
+BOOST_AUTO_TEST_CASE(sphere_that_an_extension_pulls_at_is_at_rest) {
+  const FinishedRun run(
+      "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.0, 1.0]\n"
+      "[flow]\nkind = 'gradient'\ngradient = [[-0.5, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, 1.0]]\n"
+      "[electric]\nfield = [0.0, 0.0, 1.0]\nconductivity_in = 1.0\nconductivity_out = 1.0\n"
+      "[numerics]\norder = 5\ntime_order = 3\ndt = 0.05\nend_time = 1.0\n[output]\nevery = 0.25\n");
+  const std::string file = run.output + "/run.h5";
+  FrozenState end = vehd::read_frozen_state({file, {}}, "1.0");
+  BOOST_TEST(end.fields.vesicles.front().velocity.norm() > 0.1);
+  BOOST_TEST(vehd::read_time_span(file, "0.5", end).positions.size() == 1U);
+}
+
 // Regression: few steps saw a field of another period, and two numbers of steps that agreed were taken for enough.
 BOOST_AUTO_TEST_CASE(steps_resolve_each_period_of_the_field) {
   const FinishedRun run(
