@@ -212,6 +212,7 @@ void write_in_time(VesicleWriter& file, const InTime& in_time) {
   const TimeSpan& span = in_time.span;
   file.group("/in_time");
   file.attribute("/in_time", "begin", span.begin);
+  file.attribute("/in_time", "begin_text", span.begin_text);
   file.attribute("/in_time", "intervals", span.intervals);
   file.attribute("/in_time", "fewest_steps", span.fewest_steps);
   write(file, "/in_time/Vm", span.potential, {"potential", "V_m of the snapshot at the begin"});
@@ -241,6 +242,7 @@ void write_check_input(const std::filesystem::path& path, const CheckInput& inpu
   file.attribute("/", "schema_version", check_schema_version);
   file.attribute("/", "source", frozen.source);
   file.attribute("/", "time", frozen.state.time);
+  file.attribute("/", "time_text", frozen.time_text);
   write_wall(file, frozen.model.wall);
   std::vector<VesicleWriter> writers = writers_of(file, input.at_order.size());
   for (std::size_t a = 0; a < writers.size(); ++a) {

@@ -154,8 +154,8 @@ CheckContents check_contents(const FrozenState& frozen) {
     if (model.vesicles.size() > 1) require_plain_charging(frozen);
   }
   if (!contents.electric && !contents.flow) {
-    throw InputError(fmt::format("{}: neither a field nor a flow at time {:g}: there is nothing to compare",
-                                 frozen.source, frozen.state.time));
+    throw InputError(fmt::format("{}: neither a field nor a flow at time {}: there is nothing to compare",
+                                 frozen.source, frozen.time_text));
   }
   return contents;
 }

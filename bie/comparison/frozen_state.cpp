@@ -121,6 +121,7 @@ struct FrozenSource {
   std::size_t number = 0;          ///< number of the snapshot
   std::optional<RunSnapshot> snapshot{};
   ReadingNotes notes{};
+  std::string time_text = "0";  ///< of the snapshot, in the unit in which times of the run are given
   Scene scene{};
 
   /// @param who  command that accepts one or two vesicles
@@ -135,6 +136,7 @@ struct FrozenSource {
       require_few_vesicles(run->n_vesicles(), file, who);
       number = choice_of(*run, file, time, notes);
       snapshot.emplace(run->snapshot(number));
+      time_text = shown_time(snapshot->time(), GivenTimes(*run, file).shown());
       scene = parse_scene(run->scene(), file.string() + " (scene)", file.parent_path());
       require_same_vesicles(*run, scene);
     }
@@ -147,7 +149,7 @@ struct FrozenSource {
   void require_outward_shape(std::size_t vesicle, const Matrix& position) const {
     if (run) {
       const std::string of_one = run->n_vesicles() < 2 ? "" : fmt::format(" of vesicle {:02}", vesicle);
-      require_outward(fmt::format("{}: x{} at time {:g}", run->name(), of_one, snapshot->time()), position);
+      require_outward(fmt::format("{}: x{} at time {}", run->name(), of_one, time_text), position);
     } else {
       const std::vector<std::string> names = vesicle_names(scene);
       const std::string of_one = names.size() < 2 ? "" : fmt::format(" of \"{}\"", names[vesicle]);
@@ -258,6 +260,7 @@ FrozenState read_frozen_state(const SceneSource& source, const std::optional<std
   frozen.source = origin.file.string();
   frozen.model = model_of(scene);
   frozen.notes = origin.notes;
+  frozen.time_text = origin.time_text;
   frozen.names = vesicle_names(scene);
   frozen.settings = settings_of(scene);
   origin.run ? take_snapshot(origin, frozen) : start_scene(origin, frozen);

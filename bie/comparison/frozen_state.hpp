@@ -24,6 +24,7 @@ struct FrozenState {
   Fields fields;                     ///< as stored by the run; at a jump of the forcing, those just after it
   std::vector<std::string> notes{};  ///< the time taken instead of the requested one; see also ReadingNotes
   std::vector<std::string> names{};  ///< names of the vesicles if there are several
+  std::string time_text = "0";       ///< the time in a form in which times are given: "0.5 ms"
 };
 
 /// Largest number of vesicles that the finite elements mesh and solve for.

@@ -162,10 +162,11 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
   if (!choice.note.empty()) end.notes.push_back(choice.note);
   TimeSpan span;
   span.begin = run.times()[choice.snapshot];
+  span.begin_text = shown_time(span.begin, times.shown());
   span.end = end.state.time;
-  refuse_if(!(span.begin < span.end), fmt::format("--from {} is not before the snapshot that is checked, at {:g}; "
+  refuse_if(!(span.begin < span.end), fmt::format("--from {} is not before the snapshot that is checked, at {}; "
                                                   "accepted: the time of an earlier snapshot",
-                                                  from, span.end));
+                                                  from, end.time_text));
   const RunSnapshot start = run.snapshot(choice.snapshot);
   span.potential = resize_order(start.coefficients("Vm", 1), start.degree());
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());

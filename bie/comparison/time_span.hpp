@@ -13,7 +13,8 @@ namespace vehd {
 /// Motion of one membrane from a snapshot to a later one of the same run, along which both methods advance V_m.
 struct TimeSpan {
   double begin = 0.0, end = 0.0;
-  Vector potential;  ///< V_m of the first snapshot, coefficients [n_coefficients]
+  std::string begin_text = "0";  ///< with its unit, as FrozenState::time_text
+  Vector potential;              ///< V_m of the first snapshot, coefficients [n_coefficients]
   /// Times of the snapshots from begin to end; only the last one if the shape is at rest.
   std::vector<double> shape_times;
   std::vector<Matrix> positions;   ///< x at each of them, coefficients of one degree, [n_coefficients x 3]

@@ -9,10 +9,8 @@
 
 #include "bie/comparison/check.hpp"
 #include "bie/comparison/check_input.hpp"
-#include "bie/files/run_reader.hpp"
 #include "bie/python/arrays.hpp"
 #include "bie/python/bindings.hpp"
-#include "bie/runs/given_times.hpp"
 #include "bie/support/file_system.hpp"
 
 namespace vehd::python {
@@ -37,12 +35,6 @@ std::tuple<int, std::string> solve_sources(const std::filesystem::path& program_
   return {static_cast<int>(result.code), result.json.dump()};
 }
 
-/// The time of a state read from a file, in a form in which times are given.
-std::string time_of(const FrozenState& frozen, const std::filesystem::path& file) {
-  if (file.extension() == ".toml") return "0";
-  return shown_time(frozen.state.time, GivenTimes(RunReader(file), file).shown());
-}
-
 /// Exit code and result, as text, of the finite-element program; a note if the time is not the requested one; and the
 /// time.
 std::tuple<int, std::string, std::string, std::string> check(const std::filesystem::path& program_folder,
@@ -61,7 +53,7 @@ std::tuple<int, std::string, std::string, std::string> check(const std::filesyst
   if (from) task.span = read_time_span(file, *from, task.frozen);
   const FemProgram::Result result = compare_methods(fem, task);
   return {static_cast<int>(result.code), result.json.dump(), fmt::format("{}", fmt::join(task.frozen.notes, "\n")),
-          time_of(task.frozen, file)};
+          task.frozen.time_text};
 }
 
 }  // namespace

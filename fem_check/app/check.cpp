@@ -131,6 +131,7 @@ CheckResult result_of(const CheckInput& input, const SolvedState& solved, double
   CheckResult result;
   result.source = input.source;
   result.time = input.time;
+  result.time_text = input.time_text;
   result.required = required;
   result.outer_radius = solved.outer_radius;
   return result;
@@ -155,7 +156,8 @@ CheckResult judge_vesicle(const CheckInput& input, const SolvedState& solved, do
     const ChargingLevels& charging = *solved.charging;
     result.levels.insert(result.levels.end(), charging.sequence.levels.begin(), charging.sequence.levels.end());
     add(result, {in_time_question(input, places, charging)}, charging.sequence, required);
-    result.in_time = {input.in_time->begin, charging.steps, charging.order_in_time, input.in_time->moves()};
+    result.in_time = {input.in_time->begin, input.in_time->begin_text, charging.steps, charging.order_in_time,
+                      input.in_time->moves()};
   }
   if (solved.flow) {
     const LevelSequence& sequence = solved.flow->sequence;

@@ -28,6 +28,9 @@ class VesicleGroup {
   [[nodiscard]] double number(const std::string& object, const std::string& attribute) const {
     return file_.number(path(object), attribute);
   }
+  [[nodiscard]] std::string text(const std::string& object, const std::string& attribute) const {
+    return file_.text(path(object), attribute);
+  }
   [[noreturn]] void refuse(const std::string& problem) const { file_.refuse(problem); }
   [[nodiscard]] std::string path(const std::string& object) const {
     return group_.empty() ? object : object == "/" ? group_ : group_ + object;
@@ -194,6 +197,7 @@ InTime read_in_time(const VesicleGroup& file, const CheckInput& input) {
     return matrix_of_size(file, group + "/" + name, n_coefficients(order), 1);
   };
   result.begin = file.number(group, "begin");
+  result.begin_text = file.text(group, "begin_text");
   result.intervals = static_cast<int>(file.number(group, "intervals"));
   result.fewest_steps = static_cast<int>(file.number(group, "fewest_steps"));
   result.field_times = file.matrix(group + "/field_times").col(0);
@@ -249,12 +253,13 @@ std::vector<CheckInput> read_check_inputs(const std::filesystem::path& path) {
     CheckInput& input = inputs.emplace_back(read_vesicle(group));
     input.source = file.text("/", "source");
     input.time = file.number("/", "time");
+    input.time_text = file.text("/", "time_text");
     input.wall = read_wall(file);
     const bool is_curved = input.flow() && input.physics.spontaneous_curvature != 0.0;
     if (is_curved && !(input.bie.force_curvature.size() > 0 && input.bie_high.force_curvature.size() > 0)) {
       file.refuse("has a spontaneous curvature and no force_curvature in /bie or /bie_high");
     }
-    if (groups.size() > 1) input.name = file.text(group.path("/"), "name");
+    if (groups.size() > 1) input.name = group.text("/", "name");
     if (input.electric() != inputs.front().electric() || input.flow() != inputs.front().flow()) {
       file.refuse("vesicles differ in what is compared");
     }

@@ -65,6 +65,7 @@ struct Samples {
 /// V_m of an earlier snapshot, and the field and shape between it and the time of the file.
 struct InTime {
   double begin = 0.0;
+  std::string begin_text;     ///< with its unit
   Eigen::MatrixXd potential;  ///< V_m at `begin`
   /// Evenly spaced between two discontinuities of the field, in `intervals` intervals; a discontinuity occurs twice.
   Vector field_times;
@@ -93,6 +94,7 @@ struct CheckInput {
   std::string source;
   std::string name;  ///< of the vesicle; empty if there is only one
   double time = 0.0;
+  std::string time_text;  ///< with its unit
   Eigen::MatrixXd position;
   Physics physics;
   std::optional<InputWall> wall;

@@ -145,7 +145,7 @@ std::string further_lines(const CheckResult& result) {
   std::string text;
   if (result.in_time) {
     text +=
-        fmt::format("V_m in time: from time {:g} in {} steps{}{}\n", result.in_time->begin, result.in_time->steps,
+        fmt::format("V_m in time: from time {} in {} steps{}{}\n", result.in_time->begin_text, result.in_time->steps,
                     result.in_time->order ? fmt::format(", order {:.1f} in their size", *result.in_time->order) : "",
                     result.in_time->moves ? ", on the moving shape" : "");
   }
@@ -196,9 +196,9 @@ std::string table_of(const CheckResult& result) {
   std::size_t width = 20;
   for (const Row& row : rows) width = std::max(width, row.label.size());
   std::string text = fmt::format(
-      "{} at time {:g}: boundary integrals of {}, finite elements to R = {:.3g}\nrequired: errors below {:.3g} of each "
+      "{} at time {}: boundary integrals of {}, finite elements to R = {:.3g}\nrequired: errors below {:.3g} of each "
       "field\n",
-      result.source, result.time, degrees_of(result), result.outer_radius, result.required);
+      result.source, result.time_text, degrees_of(result), result.outer_radius, result.required);
   text += fmt::format("{:<{}} {:>9} {:>9}   {:>9} {:>6}   {:>9}   {}\n", "field", width, "diff. L2", "max", "FEM error",
                       "order", "run error", "verdict");
   for (const Row& row : rows) text += text_of(row, width, result.required);

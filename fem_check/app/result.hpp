@@ -18,6 +18,7 @@ struct SurfaceDivergence {
 /// Advance of V_m from an earlier snapshot.
 struct InTimeResult {
   double begin;
+  std::string begin_text;       ///< with its unit
   int steps;                    ///< between two discontinuities of the field
   std::optional<double> order;  ///< observed, in the step size
   bool moves;                   ///< whether the shape moves
@@ -31,6 +32,7 @@ struct CheckResult {
   std::string source;
   std::string name;  ///< of the vesicle; empty if there is only one
   double time = 0.0;
+  std::string time_text;  ///< with its unit
   int order = 0, high_order = 0;
   double required = default_requirement;
   std::vector<FieldComparison> fields;

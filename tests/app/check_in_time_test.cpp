@@ -21,7 +21,7 @@ const std::filesystem::path fem_folder = std::filesystem::path(VEHD_PROGRAM).par
 const std::string charging_scene =
     "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
     "[membrane]\nmobile = false\ncapacitance = 1.0\nconductance = 0.5\n"
-    "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
+    "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\npermittivity = 1.0\n"
     "[electric.waveform]\nkind = 'pulse'\nduration = 0.6\n"
     "[numerics]\norder = 8\ntime_order = 3\ndt = 0.1\nend_time = 1.0\n[output]\nevery = 0.2\n";
 
@@ -203,6 +203,19 @@ BOOST_AUTO_TEST_CASE(time_taken_instead_of_the_first_one_is_named) {
   BOOST_TEST(vehd::read_time_span(file, "0.45", end).begin == 0.4);
   BOOST_TEST_REQUIRE(end.notes.size() == 1U);
   BOOST_TEST(end.notes.front() == file + ": no snapshot at time 0.45; taken: the nearest, at 0.4");
+}
+
+// Regression: times were numbers of the scene without a unit.
+BOOST_AUTO_TEST_CASE(times_of_a_run_in_si_have_their_unit) {
+  const FinishedRun run("[units]\nlength = '10 um'\ntime = '10 us'\n[fluid]\nviscosity = 1.0\n" + charging_scene);
+  const std::string file = run.output + "/run.h5";
+  const ProgramResult refused = run_vehd({"check", file, "--from", "10 us", "--time", "6 us", "--quick"});
+  BOOST_TEST(refused.errors == file +
+                                   ": --from 10 us is not before the snapshot that is checked, at 0.006 ms; accepted: "
+                                   "the time of an earlier snapshot\n");
+  const ProgramResult check = run_vehd({"check", file, "--from", "4 us", "--quick", "--no-plot"});
+  BOOST_TEST(check.output.find("run.h5 at time 0.01 ms: ") != std::string::npos, check.output + check.errors);
+  BOOST_TEST(check.output.find("V_m in time: from time 0.004 ms in ") != std::string::npos, check.output);
 }
 
 BOOST_AUTO_TEST_CASE(span_that_is_none_is_refused) {
