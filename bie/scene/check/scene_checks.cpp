@@ -66,8 +66,6 @@ class SceneChecks {
     const NumericsScene& n = scene_.numerics;
     refuse_if(!n.dt && !n.tolerance, "numerics.dt",
               "missing key \"dt\" in [numerics] (largest time step); accepted: > 0, or a \"tolerance\"");
-    refuse_if(n.until == RunsUntil::rest && !scene_.membrane.mobile, "numerics.until",
-              "{} is rest, where a frozen shape always is; accepted: end_time while \"mobile\" in [membrane] is false");
     refuse_if(n.tolerance && n.time_order < 2, "numerics.time_order",
               "{} is 1, which has no error estimate; accepted with a tolerance: 2 to 5");
   }

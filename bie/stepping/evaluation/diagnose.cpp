@@ -76,14 +76,18 @@ Vector3 long_axis_in_plane(const Matrix3& gyration) {
   return axis.norm() > kRounding ? axis : Vector3::Zero();
 }
 
+/// Angle of an axis in (−90, 90] degrees; a vertical one is +90, whatever its rounding.
+double axis_angle_deg(double radians) {
+  const double degrees = radians * 180.0 / std::numbers::pi;
+  constexpr double kRounding = 1e-9;
+  return degrees > 90.0 + kRounding ? degrees - 180.0 : degrees <= -90.0 + kRounding ? degrees + 180.0 : degrees;
+}
+
 /// Angle of the long axis of the gyration tensor against +x in the x-z plane of the laboratory, in (−90, 90] degrees.
 double inclination(const Surface& s, const Frame& frame) {
   const Matrix centred = (s.position.rowwise() - centroid(s).transpose()) * frame.axes.transpose();
   const Vector3 axis = long_axis_in_plane(centred.transpose() * s.quadrature.asDiagonal() * centred);
-  const double degrees = std::atan2(axis.z(), axis.x()) * 180.0 / std::numbers::pi;
-  // A vertical axis is +90, whatever its rounding.
-  constexpr double kRounding = 1e-9;
-  return degrees > 90.0 + kRounding ? degrees - 180.0 : degrees <= -90.0 + kRounding ? degrees + 180.0 : degrees;
+  return axis_angle_deg(std::atan2(axis.z(), axis.x()));
 }
 
 /// ∫(H − c)² dA.
@@ -154,7 +158,7 @@ void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTra
                    std::sqrt(d.area / (4.0 * std::numbers::pi));
     if (!vorticity.isZero(0.0)) {
       const Turning turns = turning(s, moments, relative, vorticity);
-      d.tumbling_angle_deg = turns.angle * 180.0 / std::numbers::pi;
+      d.tumbling_angle_deg = axis_angle_deg(turns.angle);
       d.tumbling_frequency = turns.shape;
       d.treading_frequency = turns.membrane;
     }
