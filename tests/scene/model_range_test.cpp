@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(heating_counts_how_long_the_field_is_on) {
 
 // A run that goes on from another one, or ends at rest, is judged by its own times.
 BOOST_AUTO_TEST_CASE(heating_counts_the_times_that_a_run_has_reached) {
-  const std::string hours = replaced(quiet_scene(), "\"1 ms\"", "\"1 h\"");
+  const std::string hours = replaced(quiet_scene(), "\"1 ms\"", "\"3600 s\"");
   const double time_unit = *parsed(hours).units->time;
   const auto heating = [&](double start, double end) {
     const auto found = warnings_of(hours, ReachedValues{0.0, 0.0, 0.0, start / time_unit, end / time_unit});
