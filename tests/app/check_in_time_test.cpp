@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(steps_resolve_each_period_of_the_field) {
       "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.0, 1.0]\n[membrane]\nmobile = false\nconductance = 0.5\n"
       "[electric]\nfield = [0.0, 0.0, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
       "[electric.waveform]\nkind = 'burst'\nfrequency = 20.0\nstart = 0.0\nduration = 4.0\n"
-      "[numerics]\norder = 4\ntime_order = 3\ndt = 0.0125\nend_time = 6.0\n[output]\ntimes = [3.0, 3.5, 4.0]\n");
+      "[numerics]\norder = 4\ntime_order = 3\ndt = 0.0125\nend_time = 6.0\n[output]\ntimes = [3.0, 3.5, 3.9, 4.0]\n");
   const std::string file = run.output + "/run.h5";
   FrozenState end = vehd::read_frozen_state({file, {}}, "4.0");
   BOOST_TEST(vehd::read_time_span(file, "3.0", end).fewest_steps == 128);
@@ -184,8 +184,8 @@ BOOST_AUTO_TEST_CASE(steps_resolve_each_period_of_the_field) {
 
   const std::string result = run.directory / "result.json";
   const ProgramResult check =
-      run_vehd({"check", file, "--from", "3.5", "--time", "4.0", "--quick", "--no-plot", "--json", result});
-  BOOST_TEST(json_of(result)["in_time"]["steps"].get<int>() >= 128, check.output + check.errors);
+      run_vehd({"check", file, "--from", "3.9", "--time", "4.0", "--quick", "--no-plot", "--json", result});
+  BOOST_TEST(json_of(result)["in_time"]["steps"].get<int>() >= 16, check.output + check.errors);
   const ProgramResult refused = run_vehd({"check", file, "--from", "0", "--time", "4.0", "--quick"});
   BOOST_TEST(refused.exit_code == 1);
   BOOST_TEST(refused.errors == file +
