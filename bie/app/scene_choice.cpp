@@ -10,6 +10,7 @@
 
 #include "bie/scene/given_time.hpp"
 #include "bie/scene/nearest_name.hpp"
+#include "bie/scene/units.hpp"
 #include "bie/support/thread_count.hpp"
 
 namespace vehd {
@@ -97,8 +98,8 @@ std::filesystem::path default_directory(const std::filesystem::path& scene_file)
 
 CLI::Validator number_in(double least, double most) {
   const auto check = [least, most](const std::string& text) -> std::string {
-    double number = 0.0;
-    if (CLI::detail::lexical_cast(text, number) && least <= number && number <= most) return "";
+    const auto given = parse_quantity(text);
+    if (given && given->unit.empty() && least <= given->number && given->number <= most) return "";
     return fmt::format("is {}; accepted: a number from {:g} to {:g}", text, least, most);
   };
   return CLI::Validator(check, fmt::format("FLOAT in [{:g} - {:g}]", least, most));

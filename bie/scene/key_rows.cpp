@@ -67,7 +67,7 @@ void add_shape(auto& scene) {
   file.key("time", &ShapeScene::time, not_negative,
            {"t", "time", "time of the snapshot in that run; absent: the last one"});
   file.key("checksum", &ShapeScene::checksum, {0.0, 4294967295.0},
-           {"", "1", "of the snapshot; absent: any, and the effective scene has that of the file"});
+           {"", "1", "of the snapshot, written by vehd: a file that has changed is refused; absent: any"});
   shape.key("area", &ShapeScene::area, positive, {"A", "area", "the shape is scaled to this area; not with scale"});
   shape.key("scale", &ShapeScene::scale, size_range, {"", "1", "the shape is scaled by this factor; not with area"});
   shape.key("rotation", &ShapeScene::rotation,
