@@ -274,7 +274,7 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
           if (by_place && !of_whole) append(place_columns());
           if (wall) append(wall_columns(static_cast<HistoryKind::Rows>(rows)));
           if (rows != HistoryKind::of_each) append({{"wrinkle_growth", "1", wrinkle_growth, ColumnMeaning::method}});
-          if (!of_whole) append({{"shape_rate", "1/time", of_vesicle<&D::shape_rate>, ColumnMeaning::method}});
+          if (!of_whole) append({{"shape_rate", "1/time", of_vesicle<&D::shape_rate>}});
           if (!of_whole) append(mode_columns());
           append(normal_stress_columns());
           if (!of_whole) append(turning_columns());

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bie/files/run_reader.hpp"
+#include "bie/runs/scene_changes.hpp"
 #include "bie/scene/key_lookup.hpp"
 #include "bie/scene/model_of.hpp"
 #include "bie/scene/output_units.hpp"
@@ -28,8 +29,6 @@ Scene stored_scene(const Checkpoint& checkpoint, const RunPaths& paths) {
 
 bool may_change(const std::string& key) { return key.starts_with("numerics.") || key.starts_with("output."); }
 
-std::string shown(const std::string& value) { return value.empty() ? "absent" : value; }
-
 /// Compares a scene with that of the run which it continues.
 struct Comparison {
   const Scene& scene;
@@ -39,7 +38,7 @@ struct Comparison {
 
   [[noreturn]] void refuse(const std::string& key, const std::string& why) const {
     throw InputError(fmt::format("{}: \"{}\" is {}, but the run in {} has {}; {}", key_place(source, key), key,
-                                 shown(key_text(scene, key)), run.directory.string(), shown(key_text(stored, key)),
+                                 shown(value_of(scene, key)), run.directory.string(), shown(value_of(stored, key)),
                                  why));
   }
 

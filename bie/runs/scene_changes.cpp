@@ -2,21 +2,41 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <string_view>
+
 #include "bie/scene/key_lookup.hpp"
+#include "bie/scene/output_units.hpp"
 #include "bie/scene/schema.hpp"
+#include "bie/scene/units.hpp"
 
 namespace vehd {
 namespace {
 
-/// Numbers and words of TOML are valid JSON.
+/// The numbers of a value as texts with an SI unit.
+nlohmann::json with_unit(const nlohmann::json& value, double scale, std::string_view unit) {
+  if (value.is_number()) return fmt::format("{:.12g} {}", value.get<double>() * scale, unit);
+  nlohmann::json result = value;
+  if (value.is_array()) {
+    for (nlohmann::json& part : result) part = with_unit(part, scale, unit);
+  }
+  return result;
+}
+
+}  // namespace
+
 nlohmann::json value_of(const Scene& scene, const std::string& key) {
   const std::string text = key_text(scene, key);
-  return text.empty() ? nlohmann::json() : nlohmann::json::parse(text);
+  if (text.empty()) return {};
+  // Numbers and words of TOML are valid JSON.
+  const nlohmann::json value = nlohmann::json::parse(text);
+  const Dimension* dimension = find_dimension(key_dimension(scene, key));
+  if (!scene.units || dimension == nullptr) return value;
+  const double scale = si_scale(scene.units, dimension->name);
+  return std::isnan(scale) ? value : with_unit(value, scale, dimension->si_unit());
 }
 
 std::string shown(const nlohmann::json& value) { return value.is_null() ? "absent" : value.dump(); }
-
-}  // namespace
 
 std::vector<SceneChange> changes_between(const Scene& before, const Scene& after, double time, std::int64_t step) {
   std::vector<SceneChange> changes;

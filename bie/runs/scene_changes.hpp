@@ -19,6 +19,12 @@ struct SceneChange {
   bool operator==(const SceneChange&) const = default;
 };
 
+/// Value of a key, null if the scene has none. With [units] a number that has a dimension is a text in SI units:
+/// "0.01 F/m^2".
+nlohmann::json value_of(const Scene& scene, const std::string& key);
+/// A value in a message.
+std::string shown(const nlohmann::json& value);
+
 /// Changes of the computation between the scenes of two sessions, without the end time and [output].
 std::vector<SceneChange> changes_between(const Scene& before, const Scene& after, double time, std::int64_t step);
 

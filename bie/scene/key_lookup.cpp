@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -25,6 +26,15 @@ std::optional<std::pair<std::size_t, std::string>> parts_of_name(const std::stri
   return std::pair{static_cast<std::size_t>(std::stoul(name.substr(start.size()))), name.substr(end + 2)};
 }
 
+/// The row of a key that applies to a scene of one vesicle; null if there is none.
+const KeyDescription* row_of(const Scene& scene, const std::string& name) {
+  const auto& rows = scene_keys();
+  const auto found = std::ranges::find_if(rows, [&](const KeyDescription& key) {
+    return fmt::format("{}.{}", key.table, key.name) == name && applies(key, scene);
+  });
+  return found == rows.end() ? nullptr : &*found;
+}
+
 toml::table table_of(const SceneSource& source) {
   const std::string file = source.file.string();
   try {
@@ -43,12 +53,15 @@ std::string key_text(const Scene& scene, const std::string& name) {
   if (name == "vesicle.name" && !scene.vesicles.empty()) {
     return fmt::format("\"{}\"", fmt::join(vesicle_names(scene), "\", \""));
   }
-  for (const KeyDescription& key : scene_keys()) {
-    if (fmt::format("{}.{}", key.table, key.name) != name || !applies(key, scene)) continue;
-    const auto value = key.get(scene);
-    return value ? to_toml(key, *value) : "";
-  }
-  return "";
+  const KeyDescription* key = row_of(scene, name);
+  const auto value = key != nullptr ? key->get(scene) : std::nullopt;
+  return value ? to_toml(*key, *value) : "";
+}
+
+std::string_view key_dimension(const Scene& scene, const std::string& name) {
+  if (const auto vesicle = parts_of_name(name)) return key_dimension(alone(scene, vesicle->first), vesicle->second);
+  const KeyDescription* key = row_of(scene, name);
+  return key != nullptr ? std::string_view(key->unit) : "";
 }
 
 std::vector<const KeyDescription*> keys_named(const std::string& name, const std::string& place,

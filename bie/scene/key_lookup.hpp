@@ -13,6 +13,8 @@ namespace vehd {
 
 /// Value of a key as TOML; empty if the scene has none.
 std::string key_text(const Scene& scene, const std::string& name);
+/// Dimension of its numbers, as "length/time"; "1" or empty if they have none.
+std::string_view key_dimension(const Scene& scene, const std::string& name);
 
 /// All rows of a key; different kinds of its table may have different rows.
 /// @param where  table at `place` that has the name, for messages: "[vary]"

@@ -5,6 +5,7 @@
 
 #include "bie/runs/history.hpp"
 #include "bie/runs/resumption.hpp"
+#include "bie/runs/scene_changes.hpp"
 #include "bie/runs/session.hpp"
 #include "bie/scene/reader.hpp"
 #include "bie/support/errors.hpp"
@@ -62,6 +63,28 @@ void check_same_end(const vehd::HistoryTable& a, const vehd::HistoryTable& b) {
 }
 
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(changes_have_the_units_of_their_values) {
+  const auto scene = [](const std::string& capacitance, const std::string& height) {
+    return vehd::parse_scene(
+        "[units]\nlength = \"10 um\"\ntime = \"10 ms\"\nviscosity = \"1 mPa s\"\npotential = \"1 V\"\n"
+        "[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1.2]\ncentre = [0, 0, \"" +
+            height +
+            "\"]\n"
+            "[membrane]\ncapacitance = \"" +
+            capacitance +
+            "\"\nbending_modulus = \"2e-19 J\"\n"
+            "[numerics]\ndegree = 8\ntolerance = 1e-3\nend_time = 1\n",
+        "scene.toml", ".");
+  };
+  const auto changes = vehd::changes_between(scene("1 uF/cm^2", "0 um"), scene("20 mF/m^2", "30 um"), 0.5, 7);
+  BOOST_TEST_REQUIRE(changes.size() == 2U);
+  const bool shape_first = changes[0].key.starts_with("shape");
+  const vehd::SceneChange &place = changes[shape_first ? 0 : 1], &capacitance = changes[shape_first ? 1 : 0];
+  BOOST_TEST(capacitance.before == "0.01 F/m^2");
+  BOOST_TEST(capacitance.after == "0.02 F/m^2");
+  BOOST_TEST((place.after == nlohmann::json{"0 m", "0 m", "3e-05 m"}), place.after.dump());
+}
 
 BOOST_FIXTURE_TEST_CASE(an_unchanged_scene_goes_on_as_if_never_interrupted, Runs) {
   run("whole", scene_text(field_along_x, 0.5));

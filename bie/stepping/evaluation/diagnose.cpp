@@ -143,6 +143,12 @@ VesicleDiagnostics along_lab_frame_axes(VesicleDiagnostics d, const Frame& frame
 
 namespace {
 
+/// Largest magnitude of a scalar, between the nodes too.
+double largest_magnitude(const SphereTransform& fine, const Vector& field) {
+  const SphereDerivatives values = fine.synthesize_hessian(field);
+  return std::max(maximum(fine.grid(), values, 0, field, 1.0), maximum(fine.grid(), values, 0, field, -1.0));
+}
+
 /// Position, motion and elongation of the membrane.
 void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTransform& fine, const Surface& s,
                  const VesicleSolution& solution, const VesicleFields& fields, VesicleDiagnostics& d) {
@@ -154,8 +160,8 @@ void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTra
     const Vector3 of_centroid = centroid_velocity(s, moments, velocity);
     std::tie(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z) = components(of_centroid);
     const Matrix relative = velocity.rowwise() - of_centroid.transpose();
-    d.shape_rate = relative.cwiseProduct(s.normal).rowwise().sum().cwiseAbs().maxCoeff() /
-                   std::sqrt(d.area / (4.0 * std::numbers::pi));
+    const Vector along_normal = fine.analyze(Vector(relative.cwiseProduct(s.normal).rowwise().sum()));
+    d.shape_rate = largest_magnitude(fine, along_normal) / std::sqrt(d.area / (4.0 * std::numbers::pi));
     if (!vorticity.isZero(0.0)) {
       const Turning turns = turning(s, moments, relative, vorticity);
       d.tumbling_angle_deg = axis_angle_deg(turns.angle);
@@ -278,14 +284,13 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
   }
   const Vector& potential = transmembrane_potential(vesicle, fields);
   if (potential.size() > 0) {
-    const SphereDerivatives v = fine.synthesize_hessian(potential);
     if (!field.isZero(0.0)) {
       const Vector3 mean = mean_vector(vesicle.position);
       const auto [plus, minus] = values_at_poles(field, fine, centroid(s) - mean, vesicle.position, potential);
       d.Vm_pole_plus = plus;
       d.Vm_pole_minus = minus;
     }
-    d.Vm_max = std::max(maximum(fine.grid(), v, 0, potential, 1.0), maximum(fine.grid(), v, 0, potential, -1.0));
+    d.Vm_max = largest_magnitude(fine, potential);
   }
   add_poration(vesicle_model, fine, s, vesicle, solution, fields, d);
   add_by_place(vesicle_model, membrane, solution, fields, d);
