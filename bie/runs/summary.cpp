@@ -61,8 +61,14 @@ ReachedValues reached_values(const HistoryTable& history, const Scene& scene) {
   for (const Scene& one : each_alone(scene)) area += size_of(initial_position(one)).area;
   const auto& times = history.column("time");
   const double unit = units.of("time").factor;
-  return {most("Vm_max", "potential"), most("tension_max", "force/length"), most("tension_integral", "energy") / area,
-          times.empty() ? 0.0 : times.front() / unit, last(times) / unit};
+  double least_integral = 0.0;
+  for (const double value : history.column("tension_integral")) least_integral = std::min(least_integral, value);
+  return {most("Vm_max", "potential"),
+          most("tension_max", "force/length"),
+          most("tension_integral", "energy") / area,
+          least_integral / units.of("energy").factor / area,
+          times.empty() ? 0.0 : times.front() / unit,
+          last(times) / unit};
 }
 
 }  // namespace

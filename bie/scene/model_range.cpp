@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "bie/physics/effects/undulations.hpp"
 #include "bie/scene/dimensionless_groups.hpp"
+#include "bie/scene/model_of.hpp"
 #include "bie/scene/output_units.hpp"
 #include "bie/scene/shapes/initial_shape.hpp"
 #include "bie/scene/shapes/placement.hpp"
@@ -110,6 +112,7 @@ class ModelRangeChecks {
       if (series > 0.0) result.potential *= series / (series + leak);
     }
     result.tension = result.mean_tension;
+    if (const auto law = area_law()) result.least_mean_tension = law->tension(area());
     return result;
   }
 
@@ -138,9 +141,21 @@ class ModelRangeChecks {
     const bool is_watched = scene_.poration && scene_.poration->lysis_tension;
     warn_if(tension > lysis_tension && !is_watched, "lysis", tension, lysis_tension,
             fmt::format("the tension reaches {}; membranes tear at 5 to 10 mN/m", si_number(tension, "force/length")));
+    judge_buckling(reached.least_mean_tension);
     const bool acts = field_ > 0.0 || shear_rate() > 0.0 || scene_.gravity;
     if (membrane.inextensible && !membrane.undulations && acts) judge_constant_area(reached.mean_tension);
     judge_inertia();
+  }
+
+  void judge_buckling(double mean_tension) {
+    const auto law = area_law();
+    if (!law) return;
+    constexpr double close_to_least = 0.99;
+    const double share = mean_tension / law->least_tension();
+    warn_if(share > close_to_least, "buckling", share, close_to_least,
+            fmt::format("the mean tension falls to {}, where the membrane buckles: its area at rest exceeds its area "
+                        "by more than thermal undulations store",
+                        quantity_text(scene_.units, mean_tension, "force/length")));
   }
 
   /// Warns if this tension would pull area out of thermal undulations, and about spheres.
@@ -240,6 +255,12 @@ class ModelRangeChecks {
     return found == groups_.end() ? std::numeric_limits<double>::quiet_NaN() : found->value;
   }
   [[nodiscard]] double radius() const { return group("a"); }
+  [[nodiscard]] double area() const { return 4.0 * std::numbers::pi * radius() * radius(); }
+  /// Law of the area with undulations.
+  [[nodiscard]] std::optional<AreaLaw> area_law() const {
+    const auto undulations = model_of(scene_).vesicles.front().undulations;
+    return undulations ? std::optional(AreaLaw(with_rest_area(*undulations, area()))) : std::nullopt;
+  }
   /// Largest rate of the flow.
   [[nodiscard]] double shear_rate() const {
     return scene_.flow ? std::fmax(0.0, 1.0 / group("t_γ")) * largest_factor(scene_.flow->waveform) : 0.0;

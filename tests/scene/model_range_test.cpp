@@ -167,7 +167,7 @@ BOOST_AUTO_TEST_CASE(heating_counts_the_times_that_a_run_has_reached) {
   const std::string hours = replaced(quiet_scene(), "\"1 ms\"", "\"3600 s\"");
   const double time_unit = *parsed(hours).units->time;
   const auto heating = [&](double start, double end) {
-    const auto found = warnings_of(hours, ReachedValues{0.0, 0.0, 0.0, start / time_unit, end / time_unit});
+    const auto found = warnings_of(hours, ReachedValues{0.0, 0.0, 0.0, 0.0, start / time_unit, end / time_unit});
     return found.contains("heating") ? found.at("heating").value * 4.18e6 / 2e7 : 0.0;
   };
   BOOST_TEST(heating(0.0, 1.0) == 1.0, boost::test_tools::tolerance(1e-9));
@@ -224,6 +224,19 @@ BOOST_AUTO_TEST_CASE(an_exact_sphere_under_a_force_keeps_its_shape) {
                  .contains("exact_sphere"));
   BOOST_TEST(
       warnings_of(sphere + "[membrane]\nbending_modulus = 1\nundulations = true\nstretching_modulus = 1\n").empty());
+}
+
+// A rest area 1 % above the area is more than undulations store: k_BT/(8πκ_c) is 0.0016.
+BOOST_AUTO_TEST_CASE(a_membrane_that_is_too_large_for_its_shape_buckles) {
+  const double area = 4 * std::numbers::pi * 1e-10;
+  const auto with = [&](double rest_area) {
+    return warnings_of(replaced(quiet_scene(), "undulations = true\n",
+                                fmt::format("undulations = true\nrest_area = \"{} m^2\"\n", rest_area)));
+  };
+  BOOST_TEST(!with(area).contains("buckling"));
+  const auto found = with(1.01 * area);
+  BOOST_TEST(found.at("buckling").value > 0.99);
+  BOOST_TEST(found.at("buckling").value <= 1.0);
 }
 
 BOOST_AUTO_TEST_CASE(of_several_vesicles_the_farthest_beyond_counts) {
