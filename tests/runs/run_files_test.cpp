@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(a_run_goes_on_while_somebody_reads_its_snapshots) {
   };
   std::vector<vehd::RunReader> readers;
   for (int step = 0; step < 5; ++step) readers.push_back(snapshot_now());
-  run.end({.completed = true});
+  run.end({.completed = true, .reason = {}});
   const vehd::RunReader whole(paths.snapshots());
   for (const vehd::RunReader& reader : readers) {
     const std::size_t last = reader.times().size() - 1;
