@@ -283,12 +283,12 @@ void take_vesicle(toml::table& file, std::size_t vesicle) {
   merge_tables(file, std::move(own));
 }
 
-/// @param is_heavy  some vesicle of the scene has a weight
-void check_one(Scene& scene, const TomlFile& file, const std::filesystem::path& folder, bool is_heavy) {
+/// @param all  vesicles of the scene
+void check_one(Scene& scene, const TomlFile& file, const std::filesystem::path& folder, const std::vector<Scene>& all) {
   if (scene.shape.kind == ShapeKind::file) {
     scene.shape.path = std::filesystem::absolute(folder / scene.shape.path).lexically_normal().string();
   }
-  check_scene(scene, file, is_heavy);
+  check_scene(scene, file, all);
   if (has_reduced_volume(scene)) return;
   file.refuse_key(
       "shape", "kind",
@@ -328,13 +328,12 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
       // All vesicles share the scales of the first.
       scenes.push_back(scene_of(files.back(), folder, scenes.empty() ? nullptr : &scenes.front().units));
     }
-    const auto is_heavy = [](const Scene& one) { return one.fluid.density_difference != 0.0; };
-    const bool some_are_heavy = std::ranges::any_of(scenes, is_heavy);
-    for (std::size_t a = 0; a < scenes.size(); ++a) check_one(scenes[a], files[a], folder, some_are_heavy);
+    const std::vector<Scene> all = scenes;
+    for (std::size_t a = 0; a < scenes.size(); ++a) check_one(scenes[a], files[a], folder, all);
     scene = together(scenes, names);
   } else {
     scene = scene_of(file, folder, nullptr);
-    check_one(scene, file, folder, false);
+    check_one(scene, file, folder, {scene});
     if (scene.suspension) scene = placed_suspension(scene, file);
   }
   check_vesicles(scene, file);

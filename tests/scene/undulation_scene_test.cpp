@@ -24,6 +24,14 @@ BOOST_AUTO_TEST_CASE(keys_of_undulations_need_them) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(one_of_several_vesicles_may_have_none) {
+  const std::string common = on + "temperature = 0.1\n";
+  const std::string other = "[vesicle.shape]\ncentre = [9, 0, 0]\n";
+  BOOST_TEST(problem(common, "[[vesicle]]\n[[vesicle]]\n" + other + "[vesicle.membrane]\nundulations = false\n") == "");
+  BOOST_TEST(problem(common, "[[vesicle]]\n[vesicle.membrane]\nundulations = false\n[[vesicle]]\n" + other +
+                                 "[vesicle.membrane]\nundulations = false\n") != "");
+}
+
 BOOST_AUTO_TEST_CASE(undulations_need_a_tension_and_what_sets_their_size) {
   const std::string start = "scene.toml:9: \"undulations\" in [membrane] ";
   BOOST_TEST(problem(on) == start + "needs \"temperature\", \"stretching_modulus\" or both");

@@ -28,7 +28,8 @@ constexpr double largest_truncation = 0.02;
 
 class SceneChecks {
  public:
-  SceneChecks(Scene& scene, const TomlFile& file, bool is_heavy) : scene_(scene), file_(file), is_heavy_(is_heavy) {}
+  SceneChecks(Scene& scene, const TomlFile& file, const std::vector<Scene>& all)
+      : scene_(scene), file_(file), all_(all) {}
 
   void run() {
     check_steps();
@@ -127,15 +128,15 @@ class SceneChecks {
 
   void check_effects() const {
     const MembraneScene& membrane = scene_.membrane;
-    const bool heavy = scene_.fluid.density_difference != 0.0;
-    refuse_if(scene_.gravity && !heavy && !is_heavy_, "gravity.acceleration",
+    const auto is_heavy = [](const Scene& one) { return one.fluid.density_difference != 0.0; };
+    refuse_if(scene_.gravity && std::ranges::none_of(all_, is_heavy), "gravity.acceleration",
               "[gravity] has no effect: \"density_difference\" in [fluid] is 0; accepted: any other value");
-    refuse_if(heavy && !scene_.gravity, "fluid.density_difference", "{} has no effect without [gravity]");
+    refuse_if(is_heavy(scene_) && !scene_.gravity, "fluid.density_difference", "{} has no effect without [gravity]");
     refuse_if(scene_.gravity && scene_.gravity->acceleration == Triple{}, "gravity.acceleration",
               "{} is 0; accepted: a vector that is not zero");
     refuse_if(membrane.spontaneous_curvature != 0.0 && !(membrane.bending_modulus.value_or(0.0) > 0.0),
               "membrane.spontaneous_curvature", "{} has no effect without \"bending_modulus\"");
-    check_undulations(scene_, file_);
+    check_undulations(scene_, file_, all_);
     refuse_if(!membrane.mobile && !scene_.electric, "membrane.mobile",
               "{} is false without [electric]: nothing would ever change");
   }
@@ -385,11 +386,13 @@ class SceneChecks {
 
   Scene& scene_;
   const TomlFile& file_;
-  bool is_heavy_;  ///< another vesicle has a weight
+  const std::vector<Scene>& all_;
 };
 
 }  // namespace
 
-void check_scene(Scene& scene, const TomlFile& file, bool is_heavy) { SceneChecks(scene, file, is_heavy).run(); }
+void check_scene(Scene& scene, const TomlFile& file, const std::vector<Scene>& all) {
+  SceneChecks(scene, file, all).run();
+}
 
 }  // namespace vehd

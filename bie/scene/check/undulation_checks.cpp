@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -10,7 +11,7 @@
 
 namespace vehd {
 
-void check_undulations(const Scene& scene, const TomlFile& file) {
+void check_undulations(const Scene& scene, const TomlFile& file, const std::vector<Scene>& all) {
   const MembraneScene& m = scene.membrane;
   const auto refuse_if = [&](bool is_wrong, std::string_view key, std::string_view problem) {
     if (is_wrong) file.refuse_key("membrane", key, "\"{}\" in [membrane] {}", key, problem);
@@ -20,8 +21,9 @@ void check_undulations(const Scene& scene, const TomlFile& file) {
        {"stretching_modulus", m.stretching_modulus.has_value()},
        {"reference_tension", m.reference_tension.has_value()},
        {"rest_area", m.rest_area.has_value()}}};
+  const bool nobody_undulates = std::ranges::none_of(all, [](const Scene& one) { return one.membrane.undulations; });
   for (const auto& [key, is_given] : keys) {
-    refuse_if(is_given && !m.undulations, key, "has no effect without \"undulations\"");
+    refuse_if(is_given && nobody_undulates, key, "has no effect without \"undulations\"");
   }
   if (!m.undulations) return;
   constexpr std::string_view key = "undulations";

@@ -32,12 +32,12 @@ void read_waveform_rows(WaveformScene& waveform, std::istream& stream, const std
 /// table. V_m is taken from the shape file if that has one and the scene does not specify it. A scale that only the
 /// file or only the scene has is an error if a value needs it: the length of the shape, unless [shape] sets its area;
 /// the time of a snapshot; the potential.
-/// @param file      of the vesicle
-/// @param is_heavy  another vesicle has a weight
-void check_scene(Scene& scene, const TomlFile& file, bool is_heavy);
+/// @param file  of the vesicle
+/// @param all   vesicles of the scene: a key that is common to them must have an effect on one
+void check_scene(Scene& scene, const TomlFile& file, const std::vector<Scene>& all);
 
 /// The part of check_scene about undulations.
-void check_undulations(const Scene& scene, const TomlFile& file);
+void check_undulations(const Scene& scene, const TomlFile& file, const std::vector<Scene>& all);
 
 /// Places the vesicles of a table [suspension]: copies of the vesicle of the other tables, with the names "0", "1", …,
 /// one after the other at random positions with enough room. The result is reproducible. Counts above most_vesicles or
