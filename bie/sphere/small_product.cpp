@@ -88,6 +88,8 @@ Index whole_registers(Index count) {
 
 void small_product(Index rows, Index inner, Index columns, const Factor& a, const double* b, Index b_stride, double* c,
                    Index c_stride) {
+  // A matrix without rows is a null pointer, which has no offsets.
+  if (rows == 0) return;
   const Index pieces = columns / kWide;
   for (Index done = 0; done < pieces;) {
     const Index width = next_share<kMostPieces>(pieces - done);
