@@ -116,7 +116,6 @@ const std::vector<Column>& columns() {
        1.0,
        [](const VesicleDiagnostics& d) { return d.shape_modes[1]; },
        nullptr},
-      {"shape_rate", &VesicleDiagnostics::shape_rate, {0, -1, 0, 0}},
       {"tumbling_frequency", &VesicleDiagnostics::tumbling_frequency, {0, -1, 0, 0}},
       {"treading_frequency", &VesicleDiagnostics::treading_frequency, {0, -1, 0, 0}},
       {"Vm_pole_plus", &VesicleDiagnostics::Vm_pole_plus, {0, 0, 0, 1}},
