@@ -65,24 +65,21 @@ void check_same_end(const vehd::HistoryTable& a, const vehd::HistoryTable& b) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(changes_have_the_units_of_their_values) {
-  const auto scene = [](const std::string& capacitance, const std::string& height) {
+  const auto scene = [](const std::string& modulus, const std::string& height) {
     return vehd::parse_scene(
-        "[units]\nlength = \"10 um\"\ntime = \"10 ms\"\nviscosity = \"1 mPa s\"\npotential = \"1 V\"\n"
-        "[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1.2]\ncentre = [0, 0, \"" +
-            height +
-            "\"]\n"
-            "[membrane]\ncapacitance = \"" +
-            capacitance +
-            "\"\nbending_modulus = \"2e-19 J\"\n"
-            "[numerics]\ndegree = 8\ntolerance = 1e-3\nend_time = 1\n",
+        "[units]\nlength = \"10 um\"\ntime = \"10 ms\"\n[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1.2]\n"
+        "centre = [0, 0, \"" +
+            height + "\"]\n[membrane]\nbending_modulus = \"" + modulus +
+            "\"\n"
+            "[fluid]\nviscosity = \"1 mPa s\"\n[numerics]\ndegree = 8\ntolerance = 1e-3\nend_time = 1\n",
         "scene.toml", ".");
   };
-  const auto changes = vehd::changes_between(scene("1 uF/cm^2", "0 um"), scene("20 mF/m^2", "30 um"), 0.5, 7);
+  const auto changes = vehd::changes_between(scene("2e-19 J", "0 um"), scene("0.3 aJ", "30 um"), 0.5, 7);
   BOOST_TEST_REQUIRE(changes.size() == 2U);
   const bool shape_first = changes[0].key.starts_with("shape");
-  const vehd::SceneChange &place = changes[shape_first ? 0 : 1], &capacitance = changes[shape_first ? 1 : 0];
-  BOOST_TEST(capacitance.before == "0.01 F/m^2");
-  BOOST_TEST(capacitance.after == "0.02 F/m^2");
+  const vehd::SceneChange &place = changes[shape_first ? 0 : 1], &modulus = changes[shape_first ? 1 : 0];
+  BOOST_TEST(modulus.before == "2e-19 J");
+  BOOST_TEST(modulus.after == "3e-19 J");
   BOOST_TEST((place.after == nlohmann::json{"0 m", "0 m", "3e-05 m"}), place.after.dump());
 }
 
