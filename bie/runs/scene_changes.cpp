@@ -1,6 +1,7 @@
 #include "bie/runs/scene_changes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <string_view>
@@ -36,7 +37,13 @@ nlohmann::json value_of(const Scene& scene, const std::string& key) {
   return std::isnan(scale) ? value : with_unit(value, scale, dimension->si_unit());
 }
 
-std::string shown(const nlohmann::json& value) { return value.is_null() ? "absent" : value.dump(); }
+std::string shown(const nlohmann::json& value) {
+  if (value.is_null()) return "absent";
+  if (!value.is_array()) return value.dump();
+  std::vector<std::string> parts;
+  for (const nlohmann::json& part : value) parts.push_back(shown(part));
+  return fmt::format("[{}]", fmt::join(parts, ", "));
+}
 
 std::vector<SceneChange> changes_between(const Scene& before, const Scene& after, double time, std::int64_t step) {
   std::vector<SceneChange> changes;
