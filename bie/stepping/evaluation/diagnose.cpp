@@ -151,12 +151,11 @@ double largest_magnitude(const SphereTransform& fine, const Vector& field) {
 
 /// Position, motion and elongation of the membrane.
 void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTransform& fine, const Surface& s,
-                 const VesicleSolution& solution, const VesicleFields& fields, VesicleDiagnostics& d) {
+                 const Unknowns& rate, VesicleDiagnostics& d) {
   const VolumeMoments moments = volume_moments(s);
   std::tie(d.centroid_x, d.centroid_y, d.centroid_z) = components(moments.centroid);
-  if (fields.velocity.size() > 0) {
-    // A sphere moves as a rigid one, whatever its instantaneous velocity.
-    const Matrix velocity = fine.synthesize(solution.is_sphere ? solution.rate.position : fields.velocity);
+  if (rate.position.size() > 0) {
+    const Matrix velocity = fine.synthesize(rate.position);
     const Vector3 of_centroid = centroid_velocity(s, moments, velocity);
     std::tie(d.centroid_velocity_x, d.centroid_velocity_y, d.centroid_velocity_z) = components(of_centroid);
     const Matrix relative = velocity.rowwise() - of_centroid.transpose();
@@ -268,7 +267,7 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
   d.volume_drift = d.volume / vesicle.reference_volume - 1.0;
   d.strain_max = fine.synthesize(vesicle.area_strain).cwiseAbs().maxCoeff();
   d.spectrum_tail = spectrum_tail(vesicle.position);
-  add_moments(field, model.flow ? vorticity(*model.flow) : Vector3(Vector3::Zero()), fine, s, solution, fields, d);
+  add_moments(field, model.flow ? vorticity(*model.flow) : Vector3(Vector3::Zero()), fine, s, solution.rate, d);
   if (fields.tension.size() > 0) {
     const Vector tension = fine.synthesize(fields.tension);
     d.tension_integral = tension.dot(s.quadrature);

@@ -12,14 +12,13 @@ Vector3 centroid_velocity_of(const VesicleDiagnostics& d) {
 
 /// The largest relative rate of V_m, charges and pores.
 double rate_on_membrane(const Model& model, const VesicleState& vesicle, const VesicleSolution& solution,
-                        const VesicleFields& fields, const VesicleDiagnostics& d) {
+                        const VesicleDiagnostics& d) {
   const SphereTransform& fine = solution.membrane->fine;
   const Surface& s = solution.membrane->surface;
   const Unknowns& rate = solution.rate;
   Matrix relative = Matrix::Zero(s.n_points(), 3);
-  if (fields.velocity.size() > 0) {
-    relative = fine.synthesize(solution.is_sphere ? rate.position : fields.velocity).rowwise() -
-               centroid_velocity_of(d).transpose();
+  if (rate.position.size() > 0) {
+    relative = fine.synthesize(rate.position).rowwise() - centroid_velocity_of(d).transpose();
   }
   const auto relative_rate = [&](const Vector& field, const Vector& of_material, double scale) {
     if (of_material.size() == 0) return 0.0;
@@ -46,7 +45,7 @@ double largest_rate(const Model& model, const State& state, const Evaluation& ev
     double approach = (centroid_velocity_of(d) - first).norm();
     if (model.wall) approach = std::max(approach, std::abs(model.wall->normal.dot(centroid_velocity_of(d))));
     most = std::max({most, d.shape_rate, approach / solution.membrane->radius,
-                     rate_on_membrane(model, state.vesicles[a], solution, evaluation.fields.vesicles[a], d)});
+                     rate_on_membrane(model, state.vesicles[a], solution, d)});
   }
   return most;
 }

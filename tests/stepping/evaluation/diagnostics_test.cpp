@@ -35,10 +35,10 @@ VesicleDiagnostics diagnostics_of_potential(const Matrix& position, const Model&
   vesicle.reference_volume = enclosed_volume(surface);
   VesicleFields fields;
   fields.charge = position.col(2);
-  fields.velocity = velocity;
   NumericalSettings settings;
   settings.order = order;
   VesicleSolution solution;
+  solution.rate.position = velocity;
   solution.membrane =
       std::make_shared<const Membrane>(Membrane{fine, std::move(surface), {}, 1.0, SymmetrySubspace({}, order)});
   return diagnose(model, model.vesicles[0], MembraneSpace(settings, {}), settings.quadrature_tolerance, vesicle,
