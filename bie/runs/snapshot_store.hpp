@@ -23,8 +23,8 @@ void require_counted(const RunReader& run, std::int64_t count, std::int64_t chec
 ///
 /// A hidden second file lacks the snapshots added last. New ones are written there together with the missing ones, and
 /// then the two names are exchanged: a kill leaves either the old or the new file under the name run.h5, and a reader
-/// keeps the file that it has opened. The cost of a snapshot does not grow with the run, unless somebody reads it;
-/// snapshots added together share the opening and closing of files.
+/// keeps the file that it has opened. The cost of a snapshot does not grow with the run, unless another program has
+/// run.h5 open; snapshots added together share the opening and closing of files.
 class SnapshotStore {
  public:
   using WriteHeader = std::function<void(Hdf5Writer&)>;

@@ -124,7 +124,7 @@ BOOST_FIXTURE_TEST_CASE(snapshots_that_the_checkpoint_counts_must_be_there, Kill
                                   " snapshots that checkpoint.h5 counts");
 }
 
-BOOST_AUTO_TEST_CASE(a_run_goes_on_while_somebody_reads_its_snapshots) {
+BOOST_AUTO_TEST_CASE(a_run_goes_on_while_its_snapshots_are_read) {
   const TemporaryDirectory directory;
   const vehd::RunPaths paths{directory / "out"};
   const vehd::Scene scene = vehd::parse_scene(quick_scene("2.0"), "scene.toml", directory / "");
