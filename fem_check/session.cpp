@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <cstdlib>
 #include <string>
 
 #include "fem_check/deal_ii.hpp"
@@ -17,7 +18,12 @@ struct Session::Implementation {
   dealii::Utilities::MPI::MPI_InitFinalize mpi{count, arguments, 1};
 };
 
-Session::Session() : implementation_(new Implementation) {
+Session::Session() {
+  // A single process of Open MPI 4 needs neither a daemon nor a folder. Processes share this folder, which one that
+  // ends may remove just when another has made it. Ranks have the folder of their mpirun.
+  ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  ::setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+  implementation_.reset(new Implementation);
   // OpenBLAS, if installed as the BLAS, would start threads for every small dense product.
   using SetThreads = void (*)(int);
   if (void* symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<SetThreads>(symbol)(1);

@@ -27,7 +27,10 @@ bool is_program(const std::filesystem::path& path) { return ::access(path.c_str(
 
 /// Sets options of mpirun by environment variables: its command-line options differ between Open MPI 4 and 5, and each
 /// version ignores the variables of the other.
-void prepare_mpirun() {
+/// @param folder  for its temporary files
+void prepare_mpirun(const std::filesystem::path& folder) {
+  // Processes of version 4 share a folder otherwise, which one that ends may remove just when another has made it.
+  ::setenv("OMPI_MCA_orte_tmpdir_base", folder.c_str(), 1);
   for (const auto& [name, value] : std::initializer_list<std::pair<const char*, const char*>>{
            // Containers often have only the user root, and fewer slots than ranks.
            {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
@@ -68,11 +71,8 @@ FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ran
   arguments.insert(arguments.end(), {"--json", json.string()});
   std::vector<std::string> words;
   if (n_ranks > 1) {
-    prepare_mpirun();
+    prepare_mpirun(folder.path());
     words = {"mpirun", "-n", std::to_string(n_ranks)};
-  } else {
-    // A single process needs no daemon of Open MPI.
-    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   }
   words.push_back(path_.string());
   words.insert(words.end(), arguments.begin(), arguments.end());

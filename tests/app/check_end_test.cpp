@@ -1,5 +1,6 @@
 #include <signal.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <chrono>
 #include <functional>
@@ -20,7 +21,7 @@ struct LongCheck {
   TemporaryDirectory directory;
   std::vector<std::string> command;
 
-  LongCheck() {
+  explicit LongCheck(const std::string& n_ranks = "2") {
     write_text(directory / "scene.toml",
                "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.2, 1.5]\n[membrane]\nconductance = 5.0\n"
                "[electric]\nfield = [0.0, 0.0, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\n"
@@ -28,7 +29,7 @@ struct LongCheck {
     // Killed processes leave temporary files behind; these are removed with the folder.
     command = {"env", "TMPDIR=" + directory / ""};
     for (const std::string& word :
-         vehd_command({"check", directory / "scene.toml", "-o", directory / "out", "--ranks", "2", "--no-plot"})) {
+         vehd_command({"check", directory / "scene.toml", "-o", directory / "out", "--ranks", n_ranks, "--no-plot"})) {
       command.push_back(word);
     }
   }
@@ -93,6 +94,29 @@ BOOST_AUTO_TEST_CASE(finite_elements_that_are_killed_end_the_check) {
     BOOST_TEST_REQUIRE(comes_true([&] { return program.ended(); }, most), victim);
     BOOST_TEST(program.wait().exit_code > 0, victim);
     BOOST_TEST(check.is_gone(), victim);
+  }
+}
+
+// Regression: a check that ended removed the folder that another one, just starting, had made for Open MPI 4.
+BOOST_AUTO_TEST_CASE(checks_at_the_same_time_share_no_folder) {
+  if (run_command({"mpirun", "--version"}).output.find("(Open MPI) 4.") == std::string::npos) {
+    BOOST_TEST_MESSAGE("other versions remove no shared folder");
+    return;
+  }
+  for (const std::string n_ranks : {"1", "2"}) {
+    LongCheck check(n_ranks);
+    check.command.push_back("--quick");
+    RunningProgram program(check.command);
+    const auto has_folder = [&] {
+      return std::ranges::any_of(fs::directory_iterator(check.directory / ""), [](const fs::directory_entry& entry) {
+        return entry.path().filename().string().starts_with("ompi.");
+      });
+    };
+    bool shared = false;
+    BOOST_TEST_REQUIRE(comes_true([&] { return (shared = shared || has_folder()) || program.ended(); }, most), n_ranks);
+    BOOST_TEST(!shared, n_ranks);
+    program.send(SIGTERM);
+    program.wait();
   }
 }
 

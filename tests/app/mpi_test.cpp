@@ -26,7 +26,11 @@ std::string two_vesicles(const std::string& end_time) {
 
 /// Settings for containers, where only root exists and slots are often fewer than ranks.
 struct AnyContainer {
+  TemporaryDirectory session_folder;
+
   AnyContainer() {
+    // Processes of version 4 share a folder otherwise, which one that ends may remove just when another has made it.
+    ::setenv("OMPI_MCA_orte_tmpdir_base", (session_folder / "").c_str(), 1);
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
     ::setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
