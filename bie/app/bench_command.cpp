@@ -138,7 +138,7 @@ void add_time(CLI::App& bench, ExitCode& exit_code) {
       bench.add_subcommand("time", "Errors against step size, steps and seconds, and against the tolerance");
   const auto options = std::make_shared<SceneOptions>();
   add_scene_choice(*command, options->scene);
-  auto* choice = command->add_option_group("what varies");
+  auto* choice = command->add_option_group("varied quantity");
   choice
       ->add_option("--dt", options->steps,
                    "Step sizes as \"0.5 ms\" or numbers of the scene, each half of the one before")

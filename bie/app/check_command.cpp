@@ -88,8 +88,8 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
   command
       ->add_option(
           "--require", options->required,
-          "Largest error of either method, as a share of each field, with which they may agree; 0.02 if left out, 0.05 "
-          "with --quick")
+          "Largest relative error of either method in any field with which they may agree; 0.02 if left out, 0.05 with "
+          "--quick")
       ->check(number_in(1e-9, 1.0));
   command
       ->add_option(

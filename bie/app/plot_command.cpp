@@ -138,7 +138,7 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
       ->type_name("FORMAT")
       ->check(CLI::IsMember(std::vector<std::string>(picture_formats.begin(), picture_formats.end())));
   command->add_flag("--movie", options->movie, "Also write movie.mp4, a picture for each snapshot; needs ffmpeg");
-  command->add_option("--column", options->columns, "Of a sweep: these columns of its table alone, in place of all")
+  command->add_option("--column", options->columns, "Of a sweep: only these columns of its table")
       ->type_name("NAME")
       ->delimiter(',');
   command

@@ -61,8 +61,9 @@ int WorkerOptions::jobs() const { return n_jobs > 0 ? n_jobs : std::max(1, omp_g
 
 void add_workers(CLI::App& command, WorkerOptions& workers) {
   command
-      .add_option("--jobs", workers.n_jobs,
-                  "Workers on this machine, each at a run of its own; as many as it has processors if not given")
+      .add_option(
+          "--jobs", workers.n_jobs,
+          "Workers on this machine, each of which computes one run at a time; if not given, all processors are used")
       ->type_name("N")
       ->check(CLI::Range(1, most_threads));
   command.add_option("--threads", workers.n_threads, "Number of threads of each worker; one if not given")

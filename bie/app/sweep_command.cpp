@@ -169,7 +169,7 @@ void add_sweep_command(CLI::App& program, ExitCode& exit_code) {
           ->check(one_of({"slurm"}));
   command
       ->add_option("--minutes", options->minutes,
-                   "With --emit: time limit of each job; unfinished runs continue in its next turn")
+                   "With --emit: time limit of each job; a job with unfinished runs is queued again")
       ->type_name("N")
       ->check(CLI::Range(1, 60 * 24 * 30))
       ->capture_default_str();

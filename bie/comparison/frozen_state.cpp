@@ -78,12 +78,12 @@ void require_known_effects(const Scene& scene, const std::filesystem::path& file
   for (const Scene& one : each_alone(scene)) {
     if (one.membrane.bending_by_place || one.membrane.curvature_by_place) {
       refuse(file,
-             "has a membrane that bends differently from place to place; vehd check accepts [membrane] without "
+             "has a spatially varying bending modulus; vehd check accepts [membrane] without "
              "\"bending_by_place\" and \"curvature_by_place\"");
     }
     if (one.membrane.capacitance_by_place && has_relaxing_charge(one)) {
       refuse(file,
-             "has a capacitance that differs from place to place, with displacement currents; vehd check accepts one "
+             "has a spatially varying capacitance, with displacement currents; vehd check accepts one "
              "of them");
     }
   }

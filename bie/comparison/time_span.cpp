@@ -151,7 +151,7 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
   refuse_if(n_vesicles > 1, fmt::format("has {} vesicles; --from accepts a run of one", n_vesicles));
   const VesicleModel& vesicle = vesicle_of_span(end);
   refuse_if(vesicle.reaction || vesicle.by_place || vesicle.pump,
-            "has a membrane that porates or differs from place to place; --from accepts runs with one that charges "
+            "has a membrane that porates or varies in space; --from accepts runs with one that charges "
             "alike everywhere");
   refuse_if(relaxes_charge(end.model),
             "has displacement currents; --from accepts runs without \"displacement_current\"");

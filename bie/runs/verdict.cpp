@@ -95,10 +95,11 @@ struct UnseenWrinkles {
     const double round = 2.0 * std::numbers::pi;
     const double wrinkle = history.column("wrinkle_degree")[worst_row], order = history.column("order")[worst_row];
     std::string result = fmt::format(
-        "compressed since time {}: wrinkles of wavelength {:.2g} radii grow fastest, the finest degree {:g} has {:.2g}",
+        "compressed since time {}: wrinkles of wavelength {:.2g} radii grow fastest "
+        "(degree {:g} resolves wavelengths down to {:.2g})",
         history.time_text(since), round / wrinkle, order, round / order);
     if (matters(limit)) {
-      result += fmt::format(", and the {:.1g} that it cut off may have grown {:.0e} times", seed, growth);
+      result += fmt::format(", and a truncation error of {:.1g} may have grown {:.0e} times", seed, growth);
     }
     return result;
   }

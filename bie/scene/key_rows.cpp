@@ -12,7 +12,7 @@ constexpr Range degrees{0.0, 180.0, true};
 constexpr bool required = true;
 
 void add_units(auto& scene) {
-  auto units = scene.optional("units", &Scene::units, "what 1 means; absent: values are dimensionless");
+  auto units = scene.optional("units", &Scene::units, "units of plain numbers; absent: values are dimensionless");
   const auto scale = [&](std::string_view name, std::optional<double> UnitsScene::*member, const RowText& text) {
     units.key(name, member, positive, text).type = ValueType::quantity;
   };
@@ -34,17 +34,17 @@ void add_shape(auto& scene) {
   auto shape = scene.always("shape", &Scene::shape, "initial shape", required);
   shape.word("kind", &ShapeScene::kind,
              {"ellipsoid", "prolate", "oblate", "biconcave", "stomatocyte", "radial", "file"},
-             "how the initial shape is given; the middle four have the axis z", required);
+             "prolate, oblate, biconcave and stomatocyte have the axis z", required);
   shape.of("ellipsoid").key("axes", &ShapeScene::axes, size_range, {"", "length", "semi-axes along x, y, z", required});
   const auto reduced_volume = [&](std::string_view kind, Range range, std::string_view text) {
     shape.of(kind).key("reduced_volume", &ShapeScene::reduced_volume, range, {"v", "1", text});
   };
-  constexpr std::string_view definition = "6√π V/A^{3/2}, required, this or excess_area; size: area 4π";
+  constexpr std::string_view definition = "6√π V/A^{3/2}, required, this or excess_area";
   reduced_volume("prolate", {0.2, 1.0}, definition);
   reduced_volume("oblate", {0.1, 1.0}, definition);
-  reduced_volume("biconcave", {0.5, 0.75}, "6√π V/A^{3/2}; absent: 0.65; size: area 4π");
+  reduced_volume("biconcave", {0.5, 0.75}, "6√π V/A^{3/2}; absent: 0.65");
   reduced_volume("stomatocyte", {0.1, 0.65},
-                 "6√π V/A^{3/2}, required, this or excess_area; size: area 4π; open towards −z");
+                 "6√π V/A^{3/2}, required, this or excess_area; open towards −z");
   shape.of("ellipsoid", "radial")
       .key("reduced_volume", &ShapeScene::reduced_volume, {0.1, 1.0},
            {"v", "1",
@@ -68,7 +68,10 @@ void add_shape(auto& scene) {
            {"t", "time", "time of the snapshot in that run; absent: the last one"});
   file.key("checksum", &ShapeScene::checksum, {0.0, 4294967295.0},
            {"", "1", "of the snapshot, written by vehd: a file that has changed is refused; absent: any"});
-  shape.key("area", &ShapeScene::area, positive, {"A", "area", "the shape is scaled to this area; not with scale"});
+  shape.key("area", &ShapeScene::area, positive,
+            {"A", "area",
+             "the shape is scaled to this area; not with scale; absent: 4π of the middle four kinds, for which area or "
+             "scale is required with [units]"});
   shape.key("scale", &ShapeScene::scale, size_range, {"", "1", "the shape is scaled by this factor; not with area"});
   shape.key("rotation", &ShapeScene::rotation,
             {"", "1", "axis and angle in degrees about the shape's origin, right-handed, after scaling"});
@@ -151,15 +154,15 @@ void add_membrane(auto& scene) {
                {"G_m", "conductance/area", "used with [electric] only"});
   membrane.key("mobile", &MembraneScene::mobile, {"", "", "false: the shape is frozen and only the membrane charges"});
   add_places(membrane.optional("membrane.capacitance_by_place", &MembraneScene::capacitance_by_place,
-                               "C_m from place to place; absent: uniform"));
+                               "spatially varying C_m; absent: uniform"));
   add_places(membrane.optional("membrane.conductance_by_place", &MembraneScene::conductance_by_place,
-                               "G_m from place to place; absent: uniform"));
+                               "spatially varying G_m; absent: uniform"));
   add_places(membrane.optional("membrane.bending_by_place", &MembraneScene::bending_by_place,
-                               "κ_B from place to place; absent: uniform"));
+                               "spatially varying κ_B; absent: uniform"));
   add_places(membrane.optional("membrane.curvature_by_place", &MembraneScene::curvature_by_place,
-                               "spontaneous curvature c from place to place; absent: uniform"));
+                               "spatially varying spontaneous curvature c; absent: uniform"));
   auto pump = add_places(membrane.optional("membrane.pump", &MembraneScene::pump,
-                                           "current that the membrane pumps from place to place; absent: none"));
+                                           "current that the membrane pumps, spatially varying; absent: none"));
   pump.of("harmonics", "cap", "file")
       .key("current", &PumpScene::current,
            {"J_p", "current/area", "outwards, where the factor is 1: C_m dV_m/dt + G_m V_m + J_p = −σ_i ∂φ_i/∂n",
@@ -246,7 +249,7 @@ void add_electric(auto& scene) {
 void add_poration(auto& scene) {
   using Poration = PorationScene;
   auto poration =
-      scene.optional("poration", &Scene::poration, "what the membrane does beyond a threshold; absent: nothing");
+      scene.optional("poration", &Scene::poration, "electroporation of the membrane beyond a threshold; absent: none");
   poration.word(
       "model", &Poration::model, {"criterion", "porosity", "pores"},
       "criterion: when and where a threshold is passed first, which changes nothing; porosity: G_m + G_1 X with dX/dt "
@@ -311,7 +314,7 @@ void add_numerics(auto& scene) {
 }
 
 void add_output(auto& scene) {
-  auto output = scene.always("output", &Scene::output, "what is written");
+  auto output = scene.always("output", &Scene::output, "snapshots and units of the results");
   output.key("every", &OutputScene::every, positive,
              {"", "time", "time between snapshots; absent: the start, the end, and those of times and window"});
   output.key("times", &OutputScene::times, not_negative, {"", "time", "further times of snapshots, ascending"});

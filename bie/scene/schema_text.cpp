@@ -136,7 +136,8 @@ std::string scene_help() {
     text += aligned(key_table(table), "  ") + "\n";
   }
   text +=
-      "[[vesicle]]  one of several vesicles, with what differs from the tables of all; a [vesicle.shape] with a kind "
+      "[[vesicle]]  one of several vesicles, with the keys that differ from those of all; a [vesicle.shape] with a "
+      "kind "
       "takes the place of [shape]\n" +
       aligned(own_keys(), "  ") + "\n";
   return text + "Units of a scene with [units], as in \"10 um\"\n" + aligned(unit_table(), "  ");

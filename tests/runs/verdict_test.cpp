@@ -92,7 +92,8 @@ BOOST_AUTO_TEST_CASE(wrinkles_finer_than_the_degree_are_named_where_something_is
   compressed.order = 10;
   compressed.diagnostics.vesicles[0].wrinkle_degree = 20.0;
   const std::string wrinkles =
-      "compressed since time 1: wrinkles of wavelength 0.31 radii grow fastest, the finest degree 10 has 0.63";
+      "compressed since time 1: wrinkles of wavelength 0.31 radii grow fastest "
+      "(degree 10 resolves wavelengths down to 0.63)";
   BOOST_TEST(judged({row_at(0, 0, 0), compressed}) == "trustworthy");
   BOOST_TEST(judged({row_at(0, 0, 0), compressed}, {}, "no acceptable step") ==
              "stopped: no acceptable step; until then " + wrinkles);
@@ -115,8 +116,8 @@ BOOST_AUTO_TEST_CASE(wrinkles_that_had_the_time_to_grow_unseen_are_reported) {
     return row;
   };
   const std::string wrinkles =
-      "compressed since time 0: wrinkles of wavelength 0.31 radii grow fastest, the finest degree 10 has 0.63, and the "
-      "0.0001 that it cut off may have grown ";
+      "compressed since time 0: wrinkles of wavelength 0.31 radii grow fastest (degree 10 resolves "
+      "wavelengths down to 0.63), and a truncation error of 0.0001 may have grown ";
   BOOST_TEST(judged({compressed(0, 5), compressed(1, 3)}) == wrinkles + "3e+03 times");
   BOOST_TEST(judged({compressed(0, 2), compressed(1, 1)}) == "trustworthy");
   BOOST_TEST(judged({compressed(0, 2), compressed(1, 1)}, {1e-3}) == wrinkles + "2e+01 times");

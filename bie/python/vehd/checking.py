@@ -67,7 +67,7 @@ def check(what: Union[Simulation, Scene, str, "os.PathLike[str]"],
     time: of a snapshot, as "0.5 ms" or a number in the unit of the history; the last one if left out.
     from_time: of an earlier snapshot, likewise; the elements then also advance V_m from there by themselves.
     quick: coarse elements, 5 to 20 s of processor time for smooth shapes.
-    require: largest error of either method, as a share of each field, with which they may agree.
+    require: largest relative error of either method in any field with which they may agree.
     ranks: MPI processes of the finite elements.
 
     InputError: there is no finite-element program, or it lacks an effect of the scene.
