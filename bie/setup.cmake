@@ -38,6 +38,7 @@
 #   -DVEHD_TEST_LEVEL=x86-64-v3     test runs the tests that rounding could change once more, on numerical libraries for this
 #                                   instruction set, which build makes as well
 #   -DEXTENDED=ON                   test runs those labelled extended as well (docs/building.md)
+#   -DOTHER_DEBIAN=ON               test continues in a bare system of the other Debian release, 13 or 12
 #   -DTESTS=REGEX                   test runs only the tests whose names match
 #   -DCMAKE_COMPILE_WARNING_AS_ERROR=ON   a warning of the compiler ends the build
 cmake_minimum_required(VERSION 3.25)
@@ -180,6 +181,9 @@ if(STEP STREQUAL "archive" OR (STEP STREQUAL "test" AND EXTENDED))
   need_program(xz-utils xz)
   need_program(mmdebstrap mmdebstrap)
 endif()
+if(STEP STREQUAL "test" AND OTHER_DEBIAN)
+  need_program(mmdebstrap mmdebstrap)
+endif()
 if(STEP STREQUAL "archive")
   # The container of the archive is built.
   need_program(buildah buildah)
@@ -313,6 +317,9 @@ if(STEP MATCHES "^(test|sanitize)$")
   endif()
   run_or_stop("${CMAKE_CTEST_COMMAND}" --test-dir "${build}" --parallel ${tests} --output-on-failure
               --tests-regex "${TESTS}" ${left_out})
+  if(STEP STREQUAL "test" AND OTHER_DEBIAN)
+    run_or_stop("${CMAKE_COMMAND}" -P tests/installed/other_debian.cmake)
+  endif()
 else()
   set(targets vehd)
   set(fuzzers scene tables files edits)

@@ -11,6 +11,15 @@ function(cache_folder result)
   set(${result} "${cache}/vehd" PARENT_SCOPE)
 endfunction()
 
+# PROBLEM is empty, or the reason why programs cannot be run within another system: containers may forbid to mount there.
+function(try_to_mount problem)
+  execute_process(COMMAND unshare --mount --pid --fork mount -t proc proc /proc RESULT_VARIABLE status ERROR_QUIET)
+  set(${problem} "" PARENT_SCOPE)
+  if(NOT status EQUAL 0)
+    set(${problem} "it needs unshare, and root that may mount" PARENT_SCOPE)
+  endif()
+endfunction()
+
 # Makes a bare system of a release at a place that has none: in a folder, or in a file if the place ends with .tar. The
 # further options are passed to mmdebstrap. PROBLEM is empty, or the reason why there is none.
 function(make_bare_debian problem release place)

@@ -1,16 +1,16 @@
 # Installs a package as an administrator would, into a Debian 12 with only apt, and continues to the first picture, and
 # to Example 1 from Python; prints how long both take:
 #   cmake -DPACKAGE=vehd.deb -DFOLDER=work -P clean_root.cmake
-# It needs root, mmdebstrap or debootstrap, and the network; without root or these programs it is skipped.
+# It needs root that may mount, mmdebstrap or debootstrap, and the network; without root or these programs it is skipped.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/expect.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/bare_debian.cmake")
 
 find_program(mmdebstrap mmdebstrap NO_CACHE)
 find_program(debootstrap debootstrap NO_CACHE)
-execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
-if(NOT user EQUAL 0 OR NOT (mmdebstrap OR debootstrap))
-  message(STATUS "skipped: needs root and mmdebstrap or debootstrap (Debian packages)")
+try_to_mount(problem)
+if(problem OR NOT (mmdebstrap OR debootstrap))
+  message(STATUS "skipped: needs unshare, root that may mount, and mmdebstrap or debootstrap (Debian packages)")
   return()
 endif()
 

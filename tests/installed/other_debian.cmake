@@ -2,7 +2,8 @@
 # is a 13. The system and the build in it stay in ${XDG_CACHE_HOME:-~/.cache}/vehd for the next time:
 #   cmake -P other_debian.cmake
 # Before -P: -DRELEASE=trixie for another release, -DTESTS=REGEX for other tests than those of Python and the notebooks,
-# "." for all. It needs root, mmdebstrap, git and the network; if the system cannot be made it reports that and ends.
+# "." for all. It needs root, mmdebstrap, git and the network; if the system cannot be made or entered it reports that
+# and ends.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/bare_debian.cmake")
 
@@ -16,9 +17,9 @@ if(NOT DEFINED RELEASE)
     set(RELEASE bookworm)
   endif()
 endif()
-execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
-if(NOT user EQUAL 0)
-  message(STATUS "skipped: a system of Debian ${RELEASE} needs root")
+try_to_mount(problem)
+if(problem)
+  message(STATUS "skipped: a system of Debian ${RELEASE}: ${problem}")
   return()
 endif()
 cache_folder(cache)

@@ -1,5 +1,6 @@
 # Messages and actions of bie/setup.cmake if something is missing: in a folder with only that file, a configuration that
-# lacks a library, and an apt-get that only records its arguments, prints errors, and fails on request:
+# lacks a library, and an apt-get that only records its arguments, prints errors, and fails on request. Then .ci/run with a
+# cmake that only prints its arguments, and other_debian.cmake where mounting is forbidden:
 #   cmake -DSOURCE=source -DFOLDER=work -P setup.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -58,4 +59,38 @@ file(READ "${FOLDER}/calls" calls)
 require("${calls}" "install -q -y --no-install-recommends [^\n]*libimaginary-dev librare-dev")
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "with all installed the build failed (${status}):\n${text}")
+endif()
+
+# Without any other program the set-up needs all that its options name.
+set(path "$ENV{PATH}")
+set(ENV{PATH} "")
+run_setup(status text -DINSTALL=OFF -DSTEP=test)
+if(text MATCHES "mmdebstrap")
+  message(FATAL_ERROR "needs mmdebstrap without the other Debian:\n${text}")
+endif()
+run_setup(status text -DINSTALL=OFF -DSTEP=test -DOTHER_DEBIAN=ON)
+require("${text}" "Not installed: [^\n]*mmdebstrap")
+set(ENV{PATH} "${path}")
+
+# .ci/run is the test command of the README and adds what its options name.
+file(WRITE "${FOLDER}/bin/cmake" "#!/bin/sh\necho \"$*\"\n")
+file(WRITE "${FOLDER}/bin/unshare" "#!/bin/sh\nexit 1\n")
+file(CHMOD "${FOLDER}/bin/cmake" "${FOLDER}/bin/unshare" PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
+set(ENV{PATH} "${FOLDER}/bin:${path}")
+function(run_ci arguments expected)
+  execute_process(COMMAND "${SOURCE}/.ci/run" ${arguments} OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  require("${text}" "^${expected}\n$")
+endfunction()
+set(strict "-DCMAKE_COMPILE_WARNING_AS_ERROR=ON -DSTEP=test")
+set(extended "-DEXTENDED=ON -DVEHD_TEST_LEVEL=x86-64-v3")
+run_ci("" "${strict} -P bie/setup.cmake")
+run_ci(--extended "${strict} ${extended} -P bie/setup.cmake")
+run_ci("--other-debian;--extended" "${strict} -DOTHER_DEBIAN=ON ${extended} -P bie/setup.cmake")
+run_ci("--extended;--other" ".ci/run: unknown option --other; accepted: --extended, --other-debian")
+
+execute_process(COMMAND "${CMAKE_COMMAND}" -P "${SOURCE}/tests/installed/other_debian.cmake" OUTPUT_VARIABLE text
+                ERROR_VARIABLE text RESULT_VARIABLE status)
+require("${text}" "skipped: a system of Debian [a-z]+: it needs unshare, and root that may mount")
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "other_debian.cmake failed (${status}):\n${text}")
 endif()
