@@ -11,6 +11,8 @@ cmake_policy(VERSION 3.25)
 # Threads wait as those of the program do (main.cpp); otherwise it would restart itself to set this, which took half of
 # the time of tests that start it often. Installed programs are tested without these settings (installed/).
 #
+# A suite that prints "Not tried: " is shown as skipped.
+#
 # With OTHER_LIBRARIES, a folder of numerical libraries for another instruction set, each suite that is labelled neither
 # "fem" nor "once" is run with them as well, as other/MODULE/SUITE.
 function(register_suites)
@@ -60,6 +62,7 @@ function(register_suites)
       add_test(${entry} "${tests_PROGRAM}" --run_test=${name})
       set_tests_properties(${entry} PROPERTIES
                            LABELS "${labels}" TIMEOUT ${seconds} COST ${cost} RUN_SERIAL ${alone}
+                           SKIP_REGULAR_EXPRESSION "Not tried: "
                            WORKING_DIRECTORY "${tests_FOLDER}" ENVIRONMENT "${environment}")
     endforeach()
   endforeach()

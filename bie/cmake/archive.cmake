@@ -43,6 +43,14 @@ function(run)
   endif()
 endfunction()
 
+# A program that is linked with a newer C library does not start with an older one; the limit is that of docs/archive.md.
+run(getconf GNU_LIBC_VERSION OUTPUT c_library)
+string(REGEX REPLACE "^glibc " "" c_library "${c_library}")
+if(c_library VERSION_GREATER 2.36)
+  message(FATAL_ERROR "archives are made on Debian 12: with the glibc ${c_library} of this system they would not run where it \
+is older")
+endif()
+
 # Copies a file of this system into the archive, what a link leads to in its place, and notes it for the licences.
 function(carry file place)
   file(REAL_PATH "${file}" real)

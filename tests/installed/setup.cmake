@@ -1,6 +1,7 @@
 # Messages and actions of bie/setup.cmake if something is missing: in a folder with only that file, a configuration that
 # lacks a library, and an apt-get that only records its arguments, prints errors, and fails on request. Then .ci/run with a
-# cmake that only prints its arguments, and other_debian.cmake where mounting is forbidden:
+# cmake that only prints its arguments, other_debian.cmake where mounting is forbidden, and archives with a C library that
+# is too new:
 #   cmake -DSOURCE=source -DFOLDER=work -P setup.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -93,4 +94,17 @@ execute_process(COMMAND "${CMAKE_COMMAND}" -P "${SOURCE}/tests/installed/other_d
 require("${text}" "skipped: a system of Debian [a-z]+: it needs unshare, and root that may mount")
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "other_debian.cmake failed (${status}):\n${text}")
+endif()
+
+# Programs that claim to mount, to change run paths, and that the C library is that of Debian 13.
+foreach(program IN ITEMS unshare patchelf getconf)
+  file(WRITE "${FOLDER}/bin/${program}" "#!/bin/sh\necho glibc 2.41\n")
+  file(CHMOD "${FOLDER}/bin/${program}" PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
+endforeach()
+execute_process(COMMAND "${CMAKE_COMMAND}" "-DBUILD=${FOLDER}/build" "-DSOURCE=${SOURCE}" -DMAKE=ON -P
+                        "${SOURCE}/tests/installed/archive.cmake"
+                OUTPUT_VARIABLE text ERROR_VARIABLE text RESULT_VARIABLE status)
+require("${text}" "Not tried: archives are made on Debian 12")
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "archive.cmake failed (${status}):\n${text}")
 endif()

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 
 #include "tests/app/sweep_folder.hpp"
 #include "tests/support/waiting.hpp"
@@ -56,7 +57,7 @@ BOOST_AUTO_TEST_SUITE(slurm, *boost::unit_test::label("alone"))
 
 BOOST_AUTO_TEST_CASE(arrays_and_tasks_of_slurm_are_workers_of_one_sweep) {
   if (!slurm_can_be_started()) {
-    BOOST_TEST_MESSAGE("skipped: cmake -DSTEP=slurm -P bie/setup.cmake");
+    std::cout << "Not tried: cmake -DSTEP=slurm -P bie/setup.cmake\n";
     return;
   }
   const OwnSlurm slurm;
