@@ -32,9 +32,11 @@ void add_units(auto& scene) {
 
 void add_shape(auto& scene) {
   auto shape = scene.always("shape", &Scene::shape, "initial shape", required);
-  shape.word("kind", &ShapeScene::kind,
-             {"ellipsoid", "prolate", "oblate", "biconcave", "stomatocyte", "radial", "file"},
-             "prolate, oblate, biconcave and stomatocyte have the axis z", required);
+  shape.word(
+      "kind", &ShapeScene::kind, {"ellipsoid", "prolate", "oblate", "biconcave", "stomatocyte", "radial", "file"},
+      "prolate, oblate, biconcave and stomatocyte have the axis z and without area or scale the area 4π; with [units] "
+      "one of them is required",
+      required);
   shape.of("ellipsoid").key("axes", &ShapeScene::axes, size_range, {"", "length", "semi-axes along x, y, z", required});
   const auto reduced_volume = [&](std::string_view kind, Range range, std::string_view text) {
     shape.of(kind).key("reduced_volume", &ShapeScene::reduced_volume, range, {"v", "1", text});
@@ -43,8 +45,7 @@ void add_shape(auto& scene) {
   reduced_volume("prolate", {0.2, 1.0}, definition);
   reduced_volume("oblate", {0.1, 1.0}, definition);
   reduced_volume("biconcave", {0.5, 0.75}, "6√π V/A^{3/2}; absent: 0.65");
-  reduced_volume("stomatocyte", {0.1, 0.65},
-                 "6√π V/A^{3/2}, required, this or excess_area; open towards −z");
+  reduced_volume("stomatocyte", {0.1, 0.65}, "6√π V/A^{3/2}, required, this or excess_area; open towards −z");
   shape.of("ellipsoid", "radial")
       .key("reduced_volume", &ShapeScene::reduced_volume, {0.1, 1.0},
            {"v", "1",
@@ -68,10 +69,7 @@ void add_shape(auto& scene) {
            {"t", "time", "time of the snapshot in that run; absent: the last one"});
   file.key("checksum", &ShapeScene::checksum, {0.0, 4294967295.0},
            {"", "1", "of the snapshot, written by vehd: a file that has changed is refused; absent: any"});
-  shape.key("area", &ShapeScene::area, positive,
-            {"A", "area",
-             "the shape is scaled to this area; not with scale; absent: 4π of the middle four kinds, for which area or "
-             "scale is required with [units]"});
+  shape.key("area", &ShapeScene::area, positive, {"A", "area", "the shape is scaled to this area; not with scale"});
   shape.key("scale", &ShapeScene::scale, size_range, {"", "1", "the shape is scaled by this factor; not with area"});
   shape.key("rotation", &ShapeScene::rotation,
             {"", "1", "axis and angle in degrees about the shape's origin, right-handed, after scaling"});

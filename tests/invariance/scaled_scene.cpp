@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "bie/scene/schema.hpp"
+#include "bie/scene/shapes/initial_shape.hpp"
 #include "bie/scene/units.hpp"
 #include "bie/scene/vesicles.hpp"
 
@@ -33,22 +34,6 @@ struct Multiply {
   }
 };
 
-/// These shapes have an area of 4π unless the scene gives another.
-bool has_size_of_its_own(const ShapeScene& shape) {
-  switch (shape.kind) {
-    case ShapeKind::prolate:
-    case ShapeKind::oblate:
-    case ShapeKind::biconcave:
-    case ShapeKind::stomatocyte:
-      return !shape.area;
-    case ShapeKind::ellipsoid:
-    case ShapeKind::radial:
-    case ShapeKind::file:
-      break;
-  }
-  return false;
-}
-
 /// In a radius base + s, s is a length; in base + amplitude exp(exponent s) it is not.
 bool has_modes_of_length(const ShapeScene& shape) { return shape.kind == ShapeKind::radial && !shape.amplitude; }
 
@@ -74,7 +59,8 @@ Scene in_units(Scene scene, const UnitFactors& factors) {
     std::visit(Multiply{factors.of(powers[0], powers[1], powers[2], powers[3])}, *value);
     key.set(scene, *value);
   }
-  if (has_size_of_its_own(scene.shape)) scene.shape.scale = factors.length * scene.shape.scale.value_or(1.0);
+  if (has_unit_size(scene.shape.kind) && !scene.shape.area)
+    scene.shape.scale = factors.length * scene.shape.scale.value_or(1.0);
   if (has_modes_of_length(scene.shape)) {
     for (HarmonicMode& mode : scene.shape.modes) mode.a *= factors.length;
   }

@@ -296,6 +296,22 @@ BOOST_AUTO_TEST_CASE(a_default_in_units_is_required_beside_units) {
   BOOST_TEST(message_of(with_appended("[units]\nlength = '1 um'\n[fluid]\nviscosity = 2\n")) == "");
 }
 
+// Regression: the area of 4π of these shapes was 1e-11 m² or 1e-9 m² without a word, as the reference length had it.
+BOOST_AUTO_TEST_CASE(a_shape_of_area_4_pi_needs_a_size_beside_units) {
+  for (const std::string kind : {"prolate", "oblate", "biconcave", "stomatocyte"}) {
+    for (const char* length : {"10 um", "1 um"}) {
+      const std::string sized =
+          replaced(replaced(replaced(si_scene(), "10 um", length), "prolate", kind), "0.9", "0.6");
+      BOOST_TEST(message_of(sized) == "");
+      const std::string unsized = without_line(sized, "area = ");
+      BOOST_TEST(message_of(unsized) ==
+                 "scene.toml:6: missing key \"area\" in [shape]; its default of 4π depends on "
+                 "[units]; accepted: > 0, or a \"scale\"");
+      BOOST_TEST(message_of(replaced(unsized, "[membrane]", "scale = 2\n[membrane]")) == "");
+    }
+  }
+}
+
 // Whichever key is omitted, a scene in SI units is either refused or the same in all reference units.
 BOOST_AUTO_TEST_CASE(no_key_that_is_left_out_depends_on_the_reference_scales) {
   std::istringstream lines(si_scene());

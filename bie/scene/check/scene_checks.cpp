@@ -74,6 +74,8 @@ class SceneChecks {
   void check_shape() const {
     const ShapeScene& shape = scene_.shape;
     refuse_if(shape.area && shape.scale, "shape.scale", "{} together with \"area\"; accepted: one of them");
+    refuse_if(scene_.units && has_unit_size(shape.kind) && !shape.area && !shape.scale, "shape.area",
+              "missing key \"area\" in [shape]; its default of 4π depends on [units]; accepted: > 0, or a \"scale\"");
     const AxisAngle turn = shape.rotation.value_or(AxisAngle{1.0});
     refuse_if(turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0, "shape.rotation",
               "{} has the axis 0, 0, 0; accepted: an axis that is not zero");

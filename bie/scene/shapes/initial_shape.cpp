@@ -120,9 +120,7 @@ InitialMembrane unplaced_membrane(const Scene& scene) {
 double size_factor(const ShapeScene& shape, const Matrix& position) {
   if (shape.scale) return *shape.scale;
   if (!shape.area) return 1.0;
-  const bool has_unit_size =
-      shape.kind != ShapeKind::ellipsoid && shape.kind != ShapeKind::radial && shape.kind != ShapeKind::file;
-  return std::sqrt(*shape.area / (has_unit_size ? 4.0 * std::numbers::pi : size_of(position).area));
+  return std::sqrt(*shape.area / (has_unit_size(shape.kind) ? 4.0 * std::numbers::pi : size_of(position).area));
 }
 
 /// Transform between a degree and a grid for sampling a cap, whose spectrum falls like a Gaussian.
@@ -158,6 +156,10 @@ InitialMembrane initial_membrane(const Scene& scene) {
   }
   membrane.position = shifted(std::move(membrane.position), shape.centre);
   return membrane;
+}
+
+bool has_unit_size(ShapeKind kind) {
+  return kind != ShapeKind::ellipsoid && kind != ShapeKind::radial && kind != ShapeKind::file;
 }
 
 bool has_reduced_volume(const Scene& scene) {

@@ -20,6 +20,9 @@ InitialMembrane initial_membrane(const Scene& scene);
 /// The position of initial_membrane, [n_coefficients x 3].
 Matrix initial_position(const Scene& scene);
 
+/// Does a shape of this kind have the area 4π unless the scene gives an area or a scale?
+bool has_unit_size(ShapeKind kind);
+
 /// Does the shape have the reduced volume of the scene, if one is given? An ellipsoid or radial shape is moved towards
 /// a sphere or away from it to reach that volume, which may fail.
 bool has_reduced_volume(const Scene& scene);
