@@ -44,6 +44,10 @@ struct AppliedField {
   /// Frequency of a field that alternates so fast that only the mean of its force over a period matters; the waveform
   /// then applies to the amplitude.
   std::optional<double> averaged_frequency{};
+  Vector3 direction = Vector3::Zero();  ///< of a zero field, of any length; zero if it has none
+
+  /// A vector along the field, also if that is zero but has a direction.
+  [[nodiscard]] const Vector3& along() const { return field.isZero(0.0) ? direction : field; }
 };
 
 /// The leaky dielectric inside one vesicle.

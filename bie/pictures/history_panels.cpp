@@ -46,8 +46,8 @@ constexpr std::string_view energy = "bending energy", tension = "tension", poten
 
 const std::vector<QuantityRow>& quantity_rows() {
   static const std::vector<QuantityRow> rows = {
-      {shown_quantity::energy, {{"bending_energy_scaled", "bending energy ∫H² dγ"}}},
-      {shown_quantity::tension, {{"tension_integral", "tension ∫λ dγ"}}},
+      {shown_quantity::energy, {{"bending_energy_scaled", "bending energy ∫H² dA"}}},
+      {shown_quantity::tension, {{"tension_integral", "tension ∫λ dA"}}},
       {shown_quantity::potential,
        {{"Vm_north", "V_m at the north pole"}, {"Vm_max", "largest |V_m|"}},
        Shown::with_field},
@@ -155,7 +155,8 @@ std::size_t turns_of(const std::vector<double>& values) {
   return n_turns;
 }
 
-/// The ratio along the field distinguishes prolate from oblate shapes; it is 0 without a field, and the other is kept.
+/// The ratio along the field distinguishes prolate from oblate shapes; without a field it is no number, and the other
+/// is kept.
 void choose_aspect_ratio(std::vector<HistoryCurve>& curves) {
   if (curves.size() < 2) return;
   const std::vector<double>& along_field = curves.front().values;
@@ -229,7 +230,7 @@ std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& hist
   return panels;
 }
 
-HistoryCurve band_of_oscillation(HistoryCurve curve) {
+HistoryCurve envelope_of_oscillation(HistoryCurve curve) {
   constexpr std::size_t most_turns = 60, places = 400;
   const std::vector<double> values = curve.values;
   const std::size_t n = values.size();
@@ -238,6 +239,7 @@ HistoryCurve band_of_oscillation(HistoryCurve curve) {
   // A period has two turning points.
   const std::size_t period = 2 * n / n_turns + 1, stride = std::max<std::size_t>(1, n / places);
   curve.errors.resize(n);
+  curve.is_envelope = true;
   for (std::size_t i = 0; i < n; i += stride) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     // Near the ends the nearest whole period is taken, since the middle of a part of one depends on its phase.

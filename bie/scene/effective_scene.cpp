@@ -2,12 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "bie/scene/schema.hpp"
 #include "bie/scene/vesicles.hpp"
 
 namespace vehd {
 
-std::string effective_scene(const Scene& scene) {
+std::string effective_scene(const Scene& read) {
+  Scene scene = read;
+  if (scene.electric && scene.electric->direction != Triple{}) {
+    scene.electric->field = std::exchange(scene.electric->direction, Triple{});
+    scene.electric->field_magnitude = 0.0;
+  }
   const bool several = !scene.vesicles.empty();
   const auto keys_of = [&](const Scene& one, std::string_view table, bool of_vesicle) {
     std::string text;

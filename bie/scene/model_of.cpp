@@ -120,6 +120,7 @@ Model model_of(const Scene& scene) {
     const Waveform waveform = is_zero ? Waveform::alternating(0.0, 1.0, 0.0) : waveform_in(scene, "electric.waveform");
     model.electric = AppliedField{vector_of(electric->field), electric->conductivity_out, electric->permittivity,
                                   waveform, electric->displacement_current};
+    model.electric->direction = vector_of(electric->direction);
     if (has_averaged_field(scene)) model.electric->averaged_frequency = electric->waveform->frequency;
   }
   return model;

@@ -148,7 +148,7 @@ void settle_reduced_volume(const Scene& scene, ShapeScene& shape, const TomlFile
   shape.reduced_volume = 0.65;
 }
 
-/// Scales the field to `field_magnitude` if the scene gives that.
+/// Scales the field to `field_magnitude` if the scene gives that; a field of magnitude 0 keeps its direction.
 void scale_field(ElectricScene& electric, const TomlFile& file) {
   if (!electric.field_magnitude) return;
   const double size = std::hypot(electric.field[0], electric.field[1], electric.field[2]);
@@ -156,6 +156,7 @@ void scale_field(ElectricScene& electric, const TomlFile& file) {
     file.refuse_key("electric", "field",
                     "\"field\" in [electric] is 0 beside \"field_magnitude\"; accepted: a direction");
   }
+  if (*electric.field_magnitude == 0.0) electric.direction = electric.field;
   for (double& component : electric.field) component *= *electric.field_magnitude / size;
   electric.field_magnitude.reset();
 }

@@ -184,6 +184,7 @@ struct FlowScene {
 struct ElectricScene {
   Triple field{0.0, 0.0, 0.0};
   std::optional<double> field_magnitude{};  ///< absent once the field is scaled to it
+  Triple direction{0.0, 0.0, 0.0};          ///< of a field that is scaled to 0, as given; else zero
   double conductivity_in = 1.0, conductivity_out = 1.0, permittivity = 1.0, permittivity_ratio = 1.0;
   bool displacement_current = false;
   std::optional<WaveformScene> waveform;                        ///< absent: constant

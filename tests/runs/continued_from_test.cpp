@@ -112,6 +112,30 @@ BOOST_FIXTURE_TEST_CASE(a_field_that_is_switched_off_is_a_pulse, Runs) {
   BOOST_TEST(file_text(directory / "second/scene.toml").starts_with("# from " + directory / "first" + " at time 0.25"));
 }
 
+// Zero field is the reference of a series of strengths. Its direction is no axis of the symmetry that is used.
+BOOST_FIXTURE_TEST_CASE(a_field_of_magnitude_0_keeps_its_direction, Runs) {
+  const auto field = [](const std::string& magnitude) {
+    return "field = [0.4, 0.0, 0.3]\nfield_magnitude = " + magnitude + "\n";
+  };
+  const double along = 0.64 * 1.69 + 0.36, across = 1.69 + 2.0 - along;
+  for (const std::string name : {"0", "0.001", "0.5"}) {
+    run(name, scene_text(field(name), 0.125));
+    const vehd::HistoryTable series(history(name));
+    BOOST_TEST(series.column("aspect_ratio_field").front() == std::sqrt(2.0 * along / across),
+               boost::test_tools::tolerance(1e-10));
+    BOOST_TEST(series.column("shape_mode_2").front() > 0.05);
+  }
+  run("off", scene_text(field("0"), 0.25), "0.5");
+  const vehd::HistoryTable before(history("0.5")), after(history("off"));
+  for (const char* column : {"aspect_ratio_field", "shape_mode_2", "Vm_pole_plus"}) {
+    const double last = before.column(column).back();
+    BOOST_TEST(last != 0.0);
+    BOOST_TEST(after.column(column).front() == last, boost::test_tools::tolerance(1e-6));
+  }
+  run("without", scene_text(no_field, 0.25), "0.5");
+  BOOST_TEST(std::isnan(vehd::HistoryTable(history("without")).column("aspect_ratio_field").front()));
+}
+
 // The symmetry axis of the first run is no symmetry of the second.
 BOOST_FIXTURE_TEST_CASE(symmetry_is_that_of_the_state_under_the_new_flow, Runs) {
   const std::string off = "symmetry = \"off\"\n";

@@ -18,7 +18,14 @@ BOOST_AUTO_TEST_CASE(the_field_has_it_along_its_direction) {
   BOOST_TEST((scene.electric->field == vehd::Triple{6.0, 0.0, -8.0}));
   BOOST_TEST((scene == parsed(with_field("field = [6, 0, -8]\n"))));
   BOOST_TEST((parsed(vehd::effective_scene(scene)) == scene));
-  BOOST_TEST((parsed(with_field("field = [0, 0, 1]\nfield_magnitude = 0\n")).electric->field == vehd::Triple{}));
+}
+
+BOOST_AUTO_TEST_CASE(a_field_of_magnitude_0_keeps_its_direction) {
+  const vehd::Scene scene = parsed(with_field("field = [3, 0, -4]\nfield_magnitude = 0\n"));
+  BOOST_TEST((scene.electric->field == vehd::Triple{}));
+  BOOST_TEST((scene.electric->direction == vehd::Triple{3.0, 0.0, -4.0}));
+  BOOST_TEST((parsed(vehd::effective_scene(scene)) == scene));
+  BOOST_TEST((parsed(with_field("field = [0, 0, 0]\n")).electric->direction == vehd::Triple{}));
 }
 
 BOOST_AUTO_TEST_CASE(it_may_be_set_over_a_field_with_units) {

@@ -150,7 +150,8 @@ double largest_magnitude(const SphereTransform& fine, const Vector& field) {
 }
 
 /// Position, motion and elongation of the membrane.
-void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTransform& fine, const Surface& s,
+/// @param along_field  of any length; zero if the field has no direction
+void add_moments(const Vector3& along_field, const Vector3& vorticity, const SphereTransform& fine, const Surface& s,
                  const Unknowns& rate, VesicleDiagnostics& d) {
   const VolumeMoments moments = volume_moments(s);
   std::tie(d.centroid_x, d.centroid_y, d.centroid_z) = components(moments.centroid);
@@ -169,17 +170,17 @@ void add_moments(const Vector3& field, const Vector3& vorticity, const SphereTra
     }
   }
   d.aspect_ratio = moments.aspect_ratio();
-  if (field.isZero(0.0)) return;
-  d.aspect_ratio_field = moments.aspect_ratio_along(field);
-  d.shape_modes = shape_modes(s, moments.centroid, field);
+  if (along_field.isZero(0.0)) return;
+  d.aspect_ratio_field = moments.aspect_ratio_along(along_field);
+  d.shape_modes = shape_modes(s, moments.centroid, along_field);
 }
 
 /// Magnitudes and phase of V_m in an averaged field.
-void add_amplitudes(const Vector3& field, const SphereTransform& fine, const Surface& s, const VesicleState& vesicle,
-                    const Matrix& amplitude, VesicleDiagnostics& d) {
+void add_amplitudes(const Vector3& along_field, const SphereTransform& fine, const Surface& s,
+                    const VesicleState& vesicle, const Matrix& amplitude, VesicleDiagnostics& d) {
   const Vector3 mean = mean_vector(vesicle.position);
   const auto at_poles = [&](Index part) {
-    return values_at_poles(field, fine, centroid(s) - mean, vesicle.position, amplitude.col(part));
+    return values_at_poles(along_field, fine, centroid(s) - mean, vesicle.position, amplitude.col(part));
   };
   const auto [plus_real, minus_real] = at_poles(0);
   const auto [plus_imaginary, minus_imaginary] = at_poles(1);
@@ -250,7 +251,7 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
                             double quadrature_tolerance, const VesicleState& vesicle, const VesicleSolution& solution,
                             const VesicleFields& fields, const VesicleDiagnostics* previous) {
   const FlowParameters flow = flow_parameters(model, vesicle_model);
-  const Vector3 field = model.electric ? model.electric->field : Vector3(Vector3::Zero());
+  const Vector3 along_field = model.electric ? model.electric->along() : Vector3(Vector3::Zero());
   double spontaneous_curvature = 0.0;
   for (const auto& effect : vesicle_model.effects) spontaneous_curvature += effect->spontaneous_curvature();
   const Membrane& membrane = *solution.membrane;
@@ -267,7 +268,7 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
   d.volume_drift = d.volume / vesicle.reference_volume - 1.0;
   d.strain_max = fine.synthesize(vesicle.area_strain).cwiseAbs().maxCoeff();
   d.spectrum_tail = spectrum_tail(vesicle.position);
-  add_moments(field, model.flow ? vorticity(*model.flow) : Vector3(Vector3::Zero()), fine, s, solution.rate, d);
+  add_moments(along_field, model.flow ? vorticity(*model.flow) : Vector3(Vector3::Zero()), fine, s, solution.rate, d);
   if (fields.tension.size() > 0) {
     const Vector tension = fine.synthesize(fields.tension);
     d.tension_integral = tension.dot(s.quadrature);
@@ -279,13 +280,13 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
     }
   }
   if (fields.potential_amplitude.size() > 0) {
-    add_amplitudes(field, fine, s, vesicle, fields.potential_amplitude, d);
+    add_amplitudes(along_field, fine, s, vesicle, fields.potential_amplitude, d);
   }
   const Vector& potential = transmembrane_potential(vesicle, fields);
   if (potential.size() > 0) {
-    if (!field.isZero(0.0)) {
+    if (!along_field.isZero(0.0)) {
       const Vector3 mean = mean_vector(vesicle.position);
-      const auto [plus, minus] = values_at_poles(field, fine, centroid(s) - mean, vesicle.position, potential);
+      const auto [plus, minus] = values_at_poles(along_field, fine, centroid(s) - mean, vesicle.position, potential);
       d.Vm_pole_plus = plus;
       d.Vm_pole_minus = minus;
     }

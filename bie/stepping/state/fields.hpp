@@ -58,6 +58,7 @@ struct PorationLoad {
 
 /// Values of history.csv for one membrane at one time. In an averaged field V_m and q are magnitudes of amplitudes.
 struct VesicleDiagnostics {
+  static constexpr double no_direction = std::numeric_limits<double>::quiet_NaN();
   double area = 0, volume = 0, reduced_volume = 0;
   double bending_energy_scaled = 0;  ///< ∫H² dA
   double tension_integral = 0;       ///< ∫λ dA, 0 without tension
@@ -78,13 +79,15 @@ struct VesicleDiagnostics {
   double tension_max = 0;            ///< largest λ, 0 without tension
   double elastic_energy_scaled = 0;  ///< ∫(H − c)² dA
   double aspect_ratio = 0;           ///< longest over shortest axis of the gyration tensor
-  double aspect_ratio_field = 0;     ///< of the gyration tensor along the field over across, 0 without a field
-  double shape_rate = 0;             ///< max |(v − v_c)·n| over √(A/4π), v_c the velocity of the centroid
+  /// Of the gyration tensor along the field over across; NaN if the field has no direction.
+  double aspect_ratio_field = no_direction;
+  double shape_rate = 0;  ///< max |(v − v_c)·n| over √(A/4π), v_c the velocity of the centroid
   /// About the vorticity of the flow, 0 without one: turning().
   double tumbling_angle_deg = 0, tumbling_frequency = 0, treading_frequency = 0;
-  std::array<double, 5> shape_modes{};  ///< s_2 … s_6 about the field, 0 without one, see volume_moments.hpp
+  /// s_2 … s_6 about the field, NaN if that has no direction: shape_modes().
+  std::array<double, 5> shape_modes{no_direction, no_direction, no_direction, no_direction, no_direction};
   double Vm_pole_plus = 0,
-         Vm_pole_minus = 0;  ///< where the line along the field leaves the membrane, 0 without a field
+         Vm_pole_minus = 0;  ///< where the line along the field leaves the membrane, 0 if that has no direction
   double Vm_phase_deg = 0;   ///< of V_m at the former relative to an averaged field
   Rheology rheology{};       ///< of this vesicle only
   // With poration.

@@ -35,7 +35,10 @@ void turn(Fields& fields, const Matrix3& rotation) {
 
 Model rotated(const Matrix3& rotation, Model model) {
   if (model.flow) model.flow->gradient = rotated_tensor(rotation, model.flow->gradient);
-  if (model.electric) model.electric->field = rotated_vector(rotation, model.electric->field);
+  if (model.electric) {
+    model.electric->field = rotated_vector(rotation, model.electric->field);
+    model.electric->direction = rotated_vector(rotation, model.electric->direction);
+  }
   if (model.wall) {
     model.wall->point = rotation * model.wall->point;
     model.wall->normal = rotated_vector(rotation, model.wall->normal);
