@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import runpy
 import shutil
 import subprocess
 import sys
@@ -119,6 +120,18 @@ class Programs(InFolder):
         mean, deviation = re.search(r"with noise of 0.001: (\S+) ± (\S+) J", result.stdout).groups()
         self.assertLess(abs(float(mean) / float(true) - 1), 0.02)
         self.assertLess(float(deviation), 0.02 * float(true))
+
+    @unittest.skipIf(matplotlib is None, "matplotlib (Debian package python3-matplotlib) is missing")
+    def test_pictures_of_the_theory_are_drawn_with_the_curvature_of_the_solver(self):
+        script = SOURCE / "docs/examples/theory_pictures.py"
+        for page in ("model", "electric", "flow", "space"):
+            picture = self.folder / f"{page}.png"
+            subprocess.run([sys.executable, script, page, picture], check=True)
+            self.assertEqual(picture.read_bytes()[1:4], b"PNG")
+        degree, found = runpy.run_path(str(script))["curvature_coefficients"](16, 200)
+        surface = vehd.Surface.from_shape("ellipsoid", 16, axes=[1.0, 1.0, 2.0])
+        expected = surface.analyze(surface.mean_curvature)[[vehd.coefficient_index(n, 0) for n in degree]]
+        np.testing.assert_allclose(found, expected, atol=1e-9)
 
     @unittest.skipIf(matplotlib is None, "matplotlib (Debian package python3-matplotlib) is missing")
     def test_scripts_of_the_pages_run(self):
