@@ -130,7 +130,7 @@ std::vector<BenchPanel> parts_panels(const BenchRecord& record) {
   }
   if (!seconds.curves.empty()) {
     seconds.slopes = {slope_beside(seconds.curves.front(), 3.0, "p^3", 2.2),
-                      slope_beside(seconds.curves.front(), 5.0, "p^5", 2.2, 2)};
+                      slope_beside(seconds.curves.front(), 5.0, "p^5", 6.0, 2)};
   }
   if (!memory.curves.empty()) memory.slopes = {slope_beside(memory.curves.front(), 4.0, "p^4", 2.2)};
   return {seconds, memory};

@@ -60,14 +60,17 @@ struct BenchScript {
   }
 };
 
+/// Of ticks at powers of ten: decimals between 0.1 and 1000.
+const char* power_format(const PlotScale& axis) { return axis.lower > 0.01 && axis.upper < 1e4 ? "%g" : "10^{%L}"; }
+
 std::string range_script(const BenchPanel& panel, const PlotAxes& axes) {
-  std::string script =
-      panel.straight_x ? "unset logscale x; set format x '%g'\n" : "set logscale x; set format x '10^{%L}'\n";
+  std::string script = panel.straight_x ? "unset logscale x; set format x '%g'\n"
+                                        : fmt::format("set logscale x; set format x '{}'\n", power_format(axes.x));
   script += fmt::format("set xrange [{:.9g}:{:.9g}]; set yrange [{:.9g}:{:.9g}]\n", axes.x.lower, axes.x.upper,
                         axes.y.lower, axes.y.upper);
   script += panel.x_ticks.empty() ? std::string("set xtics autofreq\n")
                                   : fmt::format("set xtics ({}); set format x '%g'\n", fmt::join(panel.x_ticks, ", "));
-  return script + "set logscale y; set format y '10^{%L}'; set ytics autofreq\n";
+  return script + fmt::format("set logscale y; set format y '{}'; set ytics autofreq\n", power_format(axes.y));
 }
 
 void add_curves(const BenchPanel& panel, BenchScript& script) {

@@ -27,7 +27,7 @@ SweepAxis abscissa_axis(const Experiment& experiment) {
   std::vector<std::string> values;
   if (measured.is_contour()) {
     for (const Datum& datum : experiment.data) values.push_back(fmt::format("{}", datum.angle_deg));
-    return axis_of_values("phi (degrees)", values, false);
+    return axis_of_values("φ (degrees)", values, false);
   }
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (const Datum& datum : experiment.data) {

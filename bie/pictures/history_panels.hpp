@@ -14,6 +14,7 @@ struct HistoryCurve {
   std::string label;
   std::vector<double> values;    ///< one for each row, NaN if there is none
   std::vector<double> errors{};  ///< estimates, one for each row; empty without error bars
+  bool is_envelope = false;      ///< values ± errors are the bounds of an oscillation
 };
 
 /// Curves that share an axis.
@@ -43,9 +44,9 @@ struct HistoryPanel {
 std::vector<HistoryPanel> panels_of(const Scene& scene, const HistoryTable& history,
                                     const HistoryTable* errors = nullptr);
 
-/// Replaces a curve with more than 60 turning points, rounding apart, which would fill its panel, by the band in which
-/// it oscillates: its middle, and half its width in `errors`. Any other curve is returned unchanged.
-HistoryCurve band_of_oscillation(HistoryCurve curve);
+/// Replaces a curve with more than 60 turning points, rounding apart, which would fill its panel, by its
+/// envelope, the minimum and maximum of each period. Any other curve is returned unchanged.
+HistoryCurve envelope_of_oscillation(HistoryCurve curve);
 
 /// Do all curves complete nine tenths of their changes within the first twentieth of the time? Then a logarithmic axis
 /// of time shows them.

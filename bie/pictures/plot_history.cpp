@@ -60,16 +60,24 @@ Axis axis_of(const std::vector<double>& values, const std::string& label, double
   return axis;
 }
 
+/// For gnuplot: ('0.1' 1e-1, '1' 1e0).
+std::string ticks_at_powers(const std::vector<int>& powers) {
+  const std::vector<std::string> texts = power_texts(powers);
+  std::vector<std::string> places;
+  for (std::size_t i = 0; i < powers.size(); ++i) places.push_back(fmt::format("'{}' 1e{}", texts[i], powers[i]));
+  return fmt::format("({})", fmt::join(places, ", "));
+}
+
 Axis axis_of_time(const std::vector<double>& times, const std::string& label, bool is_logarithmic) {
   if (!is_logarithmic) return axis_of(times, label, 0.0);
   const auto first = std::ranges::find_if(times, [](double time) { return time > 0.0; });
   Axis axis{*first, times.back(), {}, label, {}, true};
-  std::vector<std::string> places;
+  std::vector<int> powers;
   for (int power = static_cast<int>(std::ceil(std::log10(axis.lower)));
        power <= static_cast<int>(std::floor(std::log10(axis.upper) + 1e-9)); ++power) {
-    places.push_back(fmt::format("'10^{{{0}}}' 1e{0}", power));
+    powers.push_back(power);
   }
-  axis.ticks = fmt::format("({})", fmt::join(places, ", "));
+  axis.ticks = ticks_at_powers(powers);
   return axis;
 }
 
@@ -100,13 +108,21 @@ struct Drawing {
                        dashes[curve], curve_colours[curve]);
   }
 
-  /// Error band behind a curve; empty without error bars.
-  [[nodiscard]] std::string band(const HistoryCurve& curve, std::size_t colour, const char* axes) const {
-    if (curve.errors.empty()) return {};
-    return fmt::format(
-        "$curve{} using 1:3:4 with filledcurves fillstyle transparent solid 0.25 noborder lc rgb '{}' "
-        "axes {} notitle, ",
-        n_curves, curve_colours[colour], axes);
+  /// A curve with its error band, or both lines of an envelope.
+  [[nodiscard]] std::string plot(const HistoryCurve& curve, std::size_t colour, const char* axes,
+                                 const std::string& title) const {
+    const std::string line = fmt::format("{} axes {}", line_style(colour), axes);
+    if (curve.is_envelope) {
+      return fmt::format("$curve{0} using 1:3 {1} {2}, $curve{0} using 1:4 {1} notitle", n_curves, line, title);
+    }
+    const std::string band =
+        curve.errors.empty()
+            ? std::string()
+            : fmt::format(
+                  "$curve{} using 1:3:4 with filledcurves fillstyle transparent solid 0.25 noborder lc rgb '{}' "
+                  "axes {} notitle, ",
+                  n_curves, curve_colours[colour], axes);
+    return fmt::format("{}$curve{} using 1:2 {} {}", band, n_curves, line, title);
   }
 
   static constexpr double pixels = 4.0;
@@ -139,9 +155,7 @@ std::string panel_of_own_axes(const HistoryPanel& panel, Drawing& drawing) {
     constexpr double half_turn = 90.0;
     data +=
         data_block(drawing.n_curves, drawing.times, curve, curve.label.starts_with("inclination") ? half_turn : 0.0);
-    const char* axes = i == 0 ? "x1y1" : "x1y2";
-    plot += fmt::format("{}{}$curve{} using 1:2 {} axes {}", i == 0 ? "plot " : ", ", drawing.band(curve, i, axes),
-                        drawing.n_curves, drawing.line_style(i), axes);
+    plot += (i == 0 ? "plot " : ", ") + drawing.plot(curve, i, i == 0 ? "x1y1" : "x1y2", "notitle");
     ++drawing.n_curves;
   }
   return data + settings + plot + "\n";
@@ -160,14 +174,14 @@ std::string logarithmic_axis(const std::vector<HistoryCurve>& curves, const std:
   constexpr double shown_powers = 9.0, fewest_powers = 2.0;
   const double upper = std::ceil(std::log10(most) + 1e-9);
   const double lower = std::clamp(std::floor(std::log10(least)), upper - shown_powers, upper - fewest_powers);
-  std::vector<std::string> places;
+  std::vector<int> powers;
   Axis axis{std::pow(10.0, lower), std::pow(10.0, upper), {}, label, {}};
   for (double power = upper; power >= lower; power -= upper - lower > 5.0 ? 2.0 : 1.0) {
-    places.push_back(fmt::format("'10^{{{0:.0f}}}' 1e{0:.0f}", power));
+    powers.push_back(static_cast<int>(power));
     // Sets the width: the printed power is smaller.
     axis.texts.push_back("1e-12");
   }
-  axis.ticks = fmt::format("({})", fmt::join(places, ", "));
+  axis.ticks = ticks_at_powers(powers);
   return "set logscale y\n" + axis_script(axis, "y", "#000000");
 }
 
@@ -179,8 +193,7 @@ std::string panel_of_common_axis(const HistoryQuantity& quantity, Drawing& drawi
     const std::vector<double> reach = reach_of_curve(curve);
     all.insert(all.end(), reach.begin(), reach.end());
     data += data_block(drawing.n_curves, drawing.times, curve, 0.0);
-    plot += fmt::format("{}{}$curve{} using 1:2 {} title {}", i == 0 ? "plot " : ", ", drawing.band(curve, i, "x1y1"),
-                        drawing.n_curves, drawing.line_style(i), gnuplot_quoted(curve.label));
+    plot += (i == 0 ? "plot " : ", ") + drawing.plot(curve, i, "x1y1", "title " + gnuplot_quoted(curve.label));
     ++drawing.n_curves;
   }
   const std::string label = with_unit(quantity.label, quantity.unit);
@@ -202,7 +215,7 @@ bool plot_history(const PlotTask& task, const PictureFile& file) {
   for (HistoryPanel& panel : panels) {
     for (HistoryQuantity& axis : panel.axes) {
       if (axis.is_logarithmic) continue;
-      for (HistoryCurve& curve : axis.curves) curve = band_of_oscillation(std::move(curve));
+      for (HistoryCurve& curve : axis.curves) curve = envelope_of_oscillation(std::move(curve));
     }
   }
   const std::vector<double>& times = history.column("time");

@@ -50,8 +50,8 @@ std::vector<std::string> time_texts(std::vector<double> times, const OutputUnits
 }
 
 /// @param range  of the field, in units of the scene
-void colour_shapes(ShapesPicture& picture, const ShapeField& field, const ColourRange& range,
-                   const OutputUnits& units) {
+void colour_shapes(ShapesPicture& picture, const ShapeField& field, const ColourRange& range, const OutputUnits& units,
+                   const Scene& scene) {
   if (field.values == ShapeField::Values::none) {
     // The middle of the diverging colours: white.
     picture.colours = ColourMap::diverging();
@@ -62,7 +62,7 @@ void colour_shapes(ShapesPicture& picture, const ShapeField& field, const Colour
   ColourRange shown = range;
   shown.lower *= unit.factor;
   shown.upper *= unit.factor;
-  picture.bar = colour_bar(shown, std::string(field.text), unit.unit);
+  picture.bar = colour_bar(shown, field_text(field, scene), unit.unit);
   picture.colours = range.both_signs ? ColourMap::diverging() : ColourMap::sequential();
   for (Shape& shape : picture.shapes) {
     shape.mesh.shade = (shape.values.array() - range.lower) / (range.upper - range.lower);
@@ -224,7 +224,7 @@ PlotResult plot_shapes(const PlotTask& task, const PictureFile& file) {
   for (const double time : times) result.times.push_back(time * unit.factor);
   if (unit.is_si()) result.time_unit = unit.symbol;
   picture.length = shown_unit(units, "length");
-  colour_shapes(picture, field, range_of(picture.shapes, field), units);
+  colour_shapes(picture, field, range_of(picture.shapes, field), units, scene);
   draw_page(page_of(picture, scene, task.style), file);
   return result;
 }
@@ -259,7 +259,7 @@ FrameDrawer shape_frames(const PlotTask& task, const RunReader& run, const std::
     ShapesPicture drawn = frame;
     drawn.shapes.push_back(shape_of(read[i], field, picture_grid_order));
     drawn.times = {texts[i]};
-    colour_shapes(drawn, field, range, units);
+    colour_shapes(drawn, field, range, units, scene);
     draw_page(page_of(drawn, scene, style), {picture, PictureFormat::png});
   };
 }

@@ -61,6 +61,11 @@ const ShapeField& shape_field(std::string_view name) {
   return *std::ranges::find(shape_fields, name, &ShapeField::name);
 }
 
+std::string field_text(const ShapeField& field, const Scene& scene) {
+  const bool is_density = field.name == "poration" && scene.poration && scene.poration->model == PorationModel::pores;
+  return is_density ? "ln(N/N₀)" : std::string(field.text);
+}
+
 const ShapeField& default_field(const RunSnapshot& snapshot) {
   for (const char* name : {"V_m", "V_m_amplitude", "tension"}) {
     if (has(snapshot, shape_field(name))) return shape_field(name);

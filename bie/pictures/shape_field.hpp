@@ -7,6 +7,7 @@
 
 #include "bie/files/run_reader.hpp"
 #include "bie/pictures/renderer.hpp"
+#include "bie/scene/scene.hpp"
 
 namespace vehd {
 
@@ -40,7 +41,7 @@ inline constexpr std::array shape_fields = {
     ShapeField{"V_m_amplitude", ShapeField::Values::amplitude, "|V_m|", "potential", {"Vm_real", "Vm_imaginary"}},
     ShapeField{"V_m_phase", ShapeField::Values::phase, "phase of V_m (degrees)", "1", {"Vm_real", "Vm_imaginary"}},
     ShapeField{"q_amplitude", ShapeField::Values::amplitude, "|q|", "potential/length", {"q_real", "q_imaginary"}},
-    ShapeField{"poration", ShapeField::Values::dataset, "X, or ln(N/N₀)", "1", {"poration"}},
+    ShapeField{"poration", ShapeField::Values::dataset, "X", "1", {"poration"}},
     ShapeField{"conductance", ShapeField::Values::dataset, "G_m", "conductance/area", {"conductance"}},
     ShapeField{"capacitance", ShapeField::Values::dataset, "C_m", "capacitance/area", {"capacitance"}},
     ShapeField{"pump_current", ShapeField::Values::dataset, "J_p", "current/area", {"pump_current"}},
@@ -49,6 +50,9 @@ inline constexpr std::array shape_fields = {
 
 /// @param name  name of one of the fields
 const ShapeField& shape_field(std::string_view name);
+
+/// Text of the field in pictures of this scene: of poration that of its model, X or ln(N/N₀).
+std::string field_text(const ShapeField& field, const Scene& scene);
 
 /// V_m, or its amplitude in an averaged field; without it the tension; without both the curvature.
 const ShapeField& default_field(const RunSnapshot& snapshot);

@@ -111,6 +111,17 @@ std::vector<std::string> distinct_texts(const std::vector<double>& values) {
   return texts(most_digits);
 }
 
+std::vector<std::string> power_texts(const std::vector<int>& powers) {
+  constexpr std::array<std::string_view, 5> decimals{"0.1", "1", "10", "100", "1000"};
+  const bool are_decimal = std::ranges::all_of(powers, [](int power) { return power >= -1 && power <= 3; });
+  std::vector<std::string> texts;
+  for (const int power : powers) {
+    texts.push_back(are_decimal ? std::string(decimals[static_cast<std::size_t>(power + 1)])
+                                : fmt::format("10^{{{}}}", power));
+  }
+  return texts;
+}
+
 ShownUnit shown_unit(const OutputUnits& units, std::string_view dimension) {
   const OutputUnit unit = units.of(dimension);
   if (unit.is_si()) return {unit.factor, printed_unit(unit.symbol)};
@@ -127,6 +138,7 @@ struct LabelRow {
 
 constexpr std::array key_rows = {LabelRow{"electric.conductivity_in", "conductivity inside σ_i"},
                                  LabelRow{"electric.conductivity_out", "conductivity outside σ_e"},
+                                 LabelRow{"electric.field_magnitude", "field strength |E_∞|"},
                                  LabelRow{"electric.permittivity", "permittivity ε"},
                                  LabelRow{"electric.waveform.frequency", "frequency"},
                                  LabelRow{"flow.rate", "shear rate"},
@@ -139,10 +151,10 @@ constexpr std::array key_rows = {LabelRow{"electric.conductivity_in", "conductiv
                                  LabelRow{"suspension.volume_fraction", "volume fraction"}};
 
 constexpr std::array column_rows = {LabelRow{"aspect_ratio_field", "aspect ratio along the field"},
-                                    LabelRow{"bending_energy_scaled", "bending energy ∫H² dγ"},
+                                    LabelRow{"bending_energy_scaled", "bending energy ∫H² dA"},
                                     LabelRow{"effective_viscosity_intrinsic", "intrinsic viscosity [η]"},
                                     LabelRow{"inclination_deg", "inclination (degrees)"},
-                                    LabelRow{"tension_integral", "tension ∫λ dγ"},
+                                    LabelRow{"tension_integral", "tension ∫λ dA"},
                                     LabelRow{"Vm_max", "largest |V_m|"},
                                     LabelRow{"Vm_north", "V_m at the north pole"},
                                     LabelRow{"q_north", "q at the north pole"}};

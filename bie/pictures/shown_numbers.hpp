@@ -29,6 +29,9 @@ std::vector<std::string> tick_texts(const std::vector<double>& ticks, int& power
 /// Texts with the fewest digits, at least three, that distinguish different numbers; trailing zeros are removed.
 std::vector<std::string> distinct_texts(const std::vector<double>& values);
 
+/// Texts of the ticks of a logarithmic axis at powers of ten: decimals if all are between 0.1 and 1000.
+std::vector<std::string> power_texts(const std::vector<int>& powers);
+
 /// Display of numbers of a scene: times `factor`, in `unit`.
 struct ShownUnit {
   double factor = 1.0;

@@ -73,8 +73,11 @@ SweepAxis by_logarithm(const std::string& label, const std::vector<double>& valu
              last = static_cast<int>(std::floor(upper + rounding));
   const int every = std::max(1, (last - first + static_cast<int>(most_ticks)) / static_cast<int>(most_ticks));
   if (last > first) {
-    for (int power = first; power <= last; power += every) {
-      axis.ticks.push_back({place(std::pow(10.0, power)), fmt::format("10^{{{}}}", power)});
+    std::vector<int> powers;
+    for (int power = first; power <= last; power += every) powers.push_back(power);
+    const std::vector<std::string> texts = power_texts(powers);
+    for (std::size_t i = 0; i < powers.size(); ++i) {
+      axis.ticks.push_back({place(std::pow(10.0, powers[i])), texts[i]});
     }
   } else {
     const std::size_t step = (values.size() + most_ticks - 1) / most_ticks;

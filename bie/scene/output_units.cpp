@@ -94,9 +94,10 @@ std::string printed_unit(std::string_view symbol) {
   std::string text(symbol);
   // In units of results only the prefix begins with u.
   if (text.starts_with('u')) text.replace(0, 1, "µ");
-  for (const auto& [written, printed] : {std::pair{"^2", "²"}, {"^3", "³"}}) {
+  for (const auto& [written, printed] :
+       {std::pair<std::string_view, const char*>{"^2", "²"}, {"^3", "³"}, {"eps0", "ε₀"}}) {
     for (std::size_t at = text.find(written); at != std::string::npos; at = text.find(written)) {
-      text.replace(at, 2, printed);
+      text.replace(at, written.size(), printed);
     }
   }
   return text;

@@ -31,14 +31,14 @@ def read_history(run):
 
 
 def read_snapshots(run):
-    """Of each snapshot: time, ∫λ dγ, and V_m and q at the north pole."""
+    """Of each snapshot: time, ∫λ dA, and V_m and q at the north pole."""
     result = {"time": [], "tension_integral": [], "Vm_north": [], "q_north": []}
     with h5py.File(pathlib.Path(run) / "run.h5") as file:
         # Gauss weights of the latitudes; the membrane grid is [latitude, longitude].
         weight = file["grid/weight"][:].reshape(-1, 1)
         for snapshot in file["snapshots"].values():
             result["time"].append(snapshot.attrs["time"])
-            # ∫ f dγ = Σ f · weight · area_element
+            # ∫ f dA = Σ f · weight · area_element
             result["tension_integral"].append(np.sum(snapshot["tension"] * weight * snapshot["area_element"]))
             # Points of the closed surface: those of the grid, then the north pole, then the south pole.
             result["Vm_north"].append(snapshot["surface/Vm"][-2])

@@ -1,6 +1,7 @@
 #include "bie/bench/panels.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "bie/bench/result.hpp"
 #include "bie/support/errors.hpp"
@@ -66,6 +67,11 @@ BOOST_FIXTURE_TEST_CASE(the_whole_step_lies_below_its_parts, Tables) {
     BOOST_TEST(panel.curves[1].label == "operator assembly");
     BOOST_TEST(!panel.slopes.empty());
   }
+  // Each line has its label at its end.
+  const auto end = [](const BenchSlope& line) {
+    return line.y_from * std::pow(line.x_to / line.x_from, line.exponent);
+  };
+  BOOST_TEST(end(drawn[0].slopes[1]) > 2.0 * end(drawn[0].slopes[0]));
 }
 
 BOOST_FIXTURE_TEST_CASE(threads_are_bars, Tables) {

@@ -38,6 +38,12 @@ BOOST_AUTO_TEST_CASE(texts_of_ticks_are_those_of_their_numbers) {
   BOOST_TEST(power == 0);
 }
 
+BOOST_AUTO_TEST_CASE(powers_of_ten_between_a_tenth_and_a_thousand_are_decimals) {
+  BOOST_TEST(power_texts({-1, 0, 1, 2, 3}) == (std::vector<std::string>{"0.1", "1", "10", "100", "1000"}));
+  BOOST_TEST(power_texts({-2, 0}) == (std::vector<std::string>{"10^{-2}", "10^{0}"}));
+  BOOST_TEST(power_texts({2, 4}) == (std::vector<std::string>{"10^{2}", "10^{4}"}));
+}
+
 BOOST_AUTO_TEST_CASE(different_times_have_different_texts) {
   BOOST_TEST(distinct_texts({0.0, 0.5, 10.0}) == (std::vector<std::string>{"0", "0.5", "10"}));
   BOOST_TEST(distinct_texts({1.0, 1.0001}) == (std::vector<std::string>{"1", "1.0001"}));

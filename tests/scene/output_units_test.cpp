@@ -129,6 +129,7 @@ BOOST_AUTO_TEST_CASE(every_prefix_is_what_its_name_says) {
 BOOST_AUTO_TEST_CASE(print_has_the_signs_that_ascii_lacks) {
   BOOST_TEST(vehd::printed_unit("um^3") == "µm³");
   BOOST_TEST(vehd::printed_unit("um/s") == "µm/s");
+  BOOST_TEST(vehd::printed_unit("eps0") == "ε₀");
   BOOST_TEST(vehd::with_unit("time", "ms") == "time (ms)");
   BOOST_TEST(vehd::with_unit("time", "") == "time");
   BOOST_TEST(vehd::si_number(0.012, "time") == "12 ms");
