@@ -272,7 +272,7 @@ void add_stability(CLI::App& bench, ExitCode& exit_code) {
     const StabilityOutcome outcome =
         bench_stability({scene_files(options->scenes), options->bench.output(), options->quick}, interruption, printer);
     write_json(options->bench.common, write_bench(outcome.result, options->bench.output(), printer));
-    exit_code = outcome.n_failed == 0 ? ExitCode::done : ExitCode::does_not_hold;
+    exit_code = outcome.n_failed == 0 ? ExitCode::done : ExitCode::check_failed;
   });
 }
 

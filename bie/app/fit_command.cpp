@@ -95,7 +95,7 @@ ExitCode fit(const FitOptions& options) {
   if (result.minimum.converged) return ExitCode::done;
   fmt::print(stderr, "χ² still fell after {} evaluations: give narrower intervals, or a start nearer to the data\n",
              result.minimum.n_evaluations);
-  return ExitCode::does_not_hold;
+  return ExitCode::check_failed;
 }
 
 }  // namespace

@@ -123,9 +123,9 @@ void print(const RunPlan& plan) {
 }
 
 /// Reports a scene whose steps cannot be taken.
-ExitCode does_not_hold(const PlanOptions& options, const std::string& what) {
+ExitCode steps_fail(const PlanOptions& options, const std::string& what) {
   fmt::print(stderr, "{}: cannot be stepped{}\n", options.scene.file.string(), what);
-  return ExitCode::does_not_hold;
+  return ExitCode::check_failed;
 }
 
 ExitCode print_costs(const PlanOptions& options, const Scene& scene) {
@@ -153,7 +153,7 @@ ExitCode print_costs(const PlanOptions& options, const Scene& scene) {
   if (rows.back().order > 0) fmt::print("predictions hold within a factor of 3\n");
   write_json(options.common, json);
   const bool none = std::ranges::all_of(rows, [](const CostRow& row) { return !row.stops.empty(); });
-  return none ? does_not_hold(options, " at any of these tolerances: " + rows.back().stops) : ExitCode::done;
+  return none ? steps_fail(options, " at any of these tolerances: " + rows.back().stops) : ExitCode::done;
 }
 
 ExitCode plan(const PlanOptions& options) {
@@ -164,7 +164,7 @@ ExitCode plan(const PlanOptions& options) {
   print(result);
   write_json(options.common, json_of(result));
   if (result.stops.empty()) return ExitCode::done;
-  return does_not_hold(options, fmt::format(": {}; {}", result.stops, advice_after_failure(scene.numerics)));
+  return steps_fail(options, fmt::format(": {}; {}", result.stops, advice_after_failure(scene.numerics)));
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ void add_plan_command(CLI::App& program, ExitCode& exit_code) {
   CLI::App* command = program.add_subcommand("plan", "Predict the effects, operators and cost of a run");
   const auto options = std::make_shared<PlanOptions>();
   add_scene_choice(*command, options->scene);
-  command->add_flag("--menu", options->costs, "Only a table of the cost of each tolerance from 1e-2 to 1e-7");
+  command->add_flag("--menu", options->costs, "Only the table of costs at tolerances from 1e-2 to 1e-7");
   add_threads_option(*command);
   add_common_options(*command, options->common);
   command->footer(

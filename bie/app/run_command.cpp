@@ -160,7 +160,8 @@ void add_run_command(CLI::App& program, const Ranks& ranks, ExitCode& exit_code)
   command->footer(
       "Writes history.csv, run.h5, run.xdmf (ParaView), summary.json, scene.toml and plots/.\n"
       "Ctrl-C finishes the current step and leaves a run that --resume continues.");
-  command->callback([options, ranks, &exit_code] { exit_code = ranks.together([&] { return run(*options, ranks); }); });
+  command->callback(
+      [options, ranks, &exit_code] { exit_code = ranks.collective([&] { return run(*options, ranks); }); });
 }
 
 }  // namespace vehd

@@ -86,7 +86,7 @@ FemProgram::Result FemProgram::run(std::vector<std::string> arguments, int n_ran
   FemProgram::Result result{static_cast<ExitCode>(end.exit_code), {}};
   if (std::filesystem::exists(json)) result.json = nlohmann::json::parse(text_of_file(json));
   const bool holds = !result.json.contains("verdict") || result.json["verdict"] == "agree";
-  if (result.code == ExitCode::done && !holds) result.code = ExitCode::does_not_hold;
+  if (result.code == ExitCode::done && !holds) result.code = ExitCode::check_failed;
   return result;
 }
 

@@ -57,7 +57,7 @@ class LawEquation {
   [[nodiscard]] bool stores() const { return storage_ != 0.0; }
 
   /// Left side without the terms of other membranes.
-  [[nodiscard]] Field own(const Field& potential) const {
+  [[nodiscard]] Field self_terms(const Field& potential) const {
     Field result = Field::Zero(potential.size());
     Scalar mean = potential[0];
     if (stores()) {
@@ -72,7 +72,7 @@ class LawEquation {
     return result;
   }
 
-  /// Inverse of `own` on the sphere of the same area, with the mean of a in place of a.
+  /// Inverse of `self_terms` on the sphere of the same area, with the mean of a in place of a.
   [[nodiscard]] Field sphere_inverse(const Field& residual) const {
     const double radius = membrane_.radius;
     Field result(residual.size());
@@ -144,7 +144,7 @@ class LawEquations {
 
   [[nodiscard]] std::vector<Field> left_side(const std::vector<Field>& potentials) const {
     std::vector<Field> result(potentials.size());
-    for_each_member(owned_, [&](std::size_t a) { result[a] = of_each_[a].own(potentials[a]); });
+    for_each_member(owned_, [&](std::size_t a) { result[a] = of_each_[a].self_terms(potentials[a]); });
     if (interaction_.is_empty()) return result;
     const std::vector<Field> jumps =
         of_owned([&](std::size_t b) { return of_each_[b].weighted_jump_of(potentials[b]); });

@@ -72,7 +72,7 @@ RecordedRun::RecordedRun(const RunTask& task)
       on_status_(task.on_status) {
   // Other ranks may still be reading files that the first rank is about to change.
   ranks_.meet();
-  ranks_.together([&] {
+  ranks_.collective([&] {
     if (!ranks_.is_first()) return;
     recorder_.emplace(task.paths, settings_of_files(task, simulation_.problem().settings), simulation_.problem().frame,
                       with_companion(simulation_.checkpoint(), error_bars_.get()), simulation_.units(),
@@ -83,7 +83,7 @@ RecordedRun::RecordedRun(const RunTask& task)
 /// Records known errors and the state of the companion.
 void RecordedRun::record_errors(const std::vector<Vector>& errors) {
   if (!error_bars_) return;
-  ranks_.together([&] {
+  ranks_.collective([&] {
     if (recorder_) recorder_->record_errors(errors, error_bars_->state());
   });
 }
@@ -96,7 +96,7 @@ void RecordedRun::record(std::vector<Vector> errors) {
   if (simulation.at_end()) std::ranges::move(errors_until(true), std::back_inserter(errors));
   record_errors(errors);
   const RunTotals totals = simulation.totals();
-  ranks_.together([&] {
+  ranks_.collective([&] {
     if (recorder_) recorder_->record(simulation.evolution().state(), sides, totals);
   });
   is_recorded_ = true;
@@ -136,7 +136,7 @@ void RecordedRun::step() {
 
 void RecordedRun::snapshot() {
   const RunTotals totals = simulation_.totals();
-  ranks_.together([&] {
+  ranks_.collective([&] {
     if (!recorder_) return;
     recorder_->keep_last_state(simulation_.evolution().evaluation().fields);
     recorder_->end_session(totals);
@@ -144,7 +144,7 @@ void RecordedRun::snapshot() {
 }
 
 void RecordedRun::keep_last_state() {
-  ranks_.together([&] {
+  ranks_.collective([&] {
     if (recorder_) recorder_->keep_last_state(simulation_.evolution().evaluation().fields);
   });
 }
@@ -157,7 +157,7 @@ RunOutcome RecordedRun::failed(const ConvergenceError& error) {
 void RecordedRun::end(const RunOutcome& outcome) {
   record_errors(errors_until(simulation_.at_end()));
   const RunTotals totals = simulation_.totals();
-  ranks_.together([&] {
+  ranks_.collective([&] {
     if (!recorder_) return;
     recorder_->end_session(totals);
     if (outcome.completed) recorder_->finish();

@@ -53,7 +53,7 @@ void require_origin(const Checkpoint& checkpoint, const std::filesystem::path& f
 RunSession::RunSession(Scene scene, const SceneSource& source, const std::filesystem::path& directory, bool resume,
                        Ranks ranks, bool is_claimed, const std::filesystem::path& from)
     : scene_(std::move(scene)), paths_{directory}, ranks_(std::move(ranks)) {
-  ranks_.together([&] {
+  ranks_.collective([&] {
     if (ranks_.is_first() && !is_claimed) lock_ = lock_in(paths_);
   });
   if (!admit_run(paths_, resume)) {

@@ -85,7 +85,7 @@ class Run {
   /// Final message of each rank.
   std::vector<std::string> go_on(const std::string& scene, int n_ranks) const {
     return on_ranks(n_ranks, [&](const Ranks& ranks) {
-      return ranks.together([&] {
+      return ranks.collective([&] {
         const vehd::SceneSource source{folder_ / "scene.toml", {}, scene};
         const vehd::RunSession session(vehd::read_scene(source), source, folder_ / "out", true, ranks);
         vehd::Interruption interruption;

@@ -112,10 +112,10 @@ BOOST_AUTO_TEST_CASE(what_one_rank_throws_all_throw) {
   for (const int busy : {0, 1, 2}) {
     const auto said = on_ranks(3, [&](const Ranks& ranks) -> std::string {
       try {
-        ranks.together([&] {
+        ranks.collective([&] {
           if (ranks.rank() == 1) throw ConvergenceError("no step");
           if (busy == 1) (void)ranks.any(false);
-          if (busy == 2) ranks.together([&] { ranks.meet(); });
+          if (busy == 2) ranks.collective([&] { ranks.meet(); });
         });
       } catch (const ConvergenceError& error) {
         // All ranks continue together.
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(what_one_rank_throws_all_throw) {
 
 BOOST_AUTO_TEST_CASE(of_several_failures_the_lowest_rank_is_heard) {
   const auto said = on_ranks(3, [](const Ranks& ranks) -> std::string {
-    ranks.together([&] {
+    ranks.collective([&] {
       if (ranks.rank() > 0) throw InputError(fmt::format("rank {}", ranks.rank()));
     });
     return "nothing";

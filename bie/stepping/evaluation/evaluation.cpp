@@ -141,7 +141,7 @@ PairSettings pair_settings(const NumericalSettings& settings) {
 
 SolvedFields solve_fields(const Model& model, const Discretisation& discretisation, const State& state,
                           Instruments& instruments, const SolvedFields* previous, Limit limit, Shapes shapes) {
-  return discretisation.partition().ranks().together(
+  return discretisation.partition().ranks().collective(
       [&] { return solve_all(model, discretisation, state, instruments, previous, limit, shapes); });
 }
 

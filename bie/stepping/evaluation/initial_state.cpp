@@ -92,7 +92,7 @@ State initial_state(const Model& model, const Discretisation& discretisation,
     if (!std::all_of(membranes.begin(), membranes.end(), is_steady)) {
       throw InputError("some vesicles start with a steady V_m, others do not; accepted: all of them or none");
     }
-    discretisation.partition().ranks().together(
+    discretisation.partition().ranks().collective(
         [&] { find_steady_potentials(model, discretisation, state, instruments); });
   }
   return with_images(discretisation.symmetry().exchange, std::move(state));

@@ -31,8 +31,8 @@ constexpr double stagnation_ratio = 0.9;
 /// this factor, down to the tightest: the norm of the solve weighs Eq. (28) at degree 64 a few thousandths of what it
 /// does at degree 1.
 constexpr int stagnating_passes = 4;
-constexpr double sharper_pass = 0.1;
-constexpr double sharpest_pass = 1e-5;
+constexpr double tighter_pass = 0.1;
+constexpr double tightest_pass = 1e-5;
 /// Changes of H smaller than this, relative to H, are those of a shape at rest: five digits of them in Eq. (28) are
 /// below the tolerance of the constraint.
 constexpr double curvature_floor = 1e-6;
@@ -204,8 +204,8 @@ class Iteration {
     // residual of one can be hidden by rounding in the other, that of the area elements.
     if (excess() > stagnation_ratio * excess_before_) ++stagnating_;
     excess_before_ = excess();
-    const double sharpening = std::pow(sharper_pass, std::max(0, stagnating_ - stagnating_passes));
-    const double tolerance = std::max(sharpening * pass_tolerance(excess()), sharpest_pass);
+    const double tightening = std::pow(tighter_pass, std::max(0, stagnating_ - stagnating_passes));
+    const double tolerance = std::max(tightening * pass_tolerance(excess()), tightest_pass);
     const FlowSystem::Solution increment = flow.solve({flow.equations().front().rows(rhs_)}, tolerance);
     iterations += increment.report.iterations;
     // The next pass corrects what this one leaves, as long as the residual falls.
@@ -216,7 +216,7 @@ class Iteration {
     const Matrix velocity = push * normal_ + increment.velocities.front();
     add(1.0, velocity, increment.unknowns.front());
     if (free_area_) {
-      const FlowSystem::Solution& uniform = flow.of_uniform_tension(sharpest_pass);
+      const FlowSystem::Solution& uniform = flow.of_uniform_tension(tightest_pass);
       const Matrix& response = uniform.velocities.front();
       const double area = after_.area + arrival_area_ + dt_ * growth(velocity);
       add(free_area_->raise_tension(area, dt_ * growth(response)), response, uniform.unknowns.front());

@@ -258,7 +258,7 @@ std::vector<Motion> StepOperations::motions(const std::vector<MotionStart>& star
       throw;
     }
   };
-  partition().ranks().together([&] {
+  partition().ranks().collective([&] {
     try {
       for_each_member(partition().local_indices(all.size()), work.instruments, move);
     } catch (const ConvergenceError&) {

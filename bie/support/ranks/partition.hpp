@@ -62,7 +62,7 @@ class Partition {
   template <typename Part, typename Image>
   auto of_all(std::size_t n, const Part& part, const Image& image) const {
     std::vector<std::invoke_result_t<const Part&, std::size_t>> values(n);
-    ranks_.together([&] {
+    ranks_.collective([&] {
       for_each_member(local_indices(n), [&](std::size_t a) { values[a] = part(a); });
       gather(values, image);
     });

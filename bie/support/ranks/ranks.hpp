@@ -19,7 +19,7 @@ class Agreed {};
 ///
 /// All ranks take the same decisions from the same bits, so all make the same collective calls in the same order. If
 /// one of them throws instead, the next collective call of the others throws the same exception: no rank waits for one
-/// that has left. This holds within `together`, the outermost of which encloses the whole run.
+/// that has left. This holds within `collective`, the outermost of which encloses the whole run.
 class Ranks {
  public:
   /// A single rank: nothing is sent.
@@ -32,7 +32,7 @@ class Ranks {
   /// The rank that writes files and prints.
   [[nodiscard]] bool is_first() const { return rank() == 0; }
 
-  // Collective calls. Each throws the failure of any rank, see together, or std::logic_error if ranks make different
+  // Collective calls. Each throws the failure of any rank, see collective, or std::logic_error if ranks make different
   // calls: machines that round differently decide differently.
 
   /// Values of all ranks, in the order of ranks.
@@ -48,7 +48,7 @@ class Ranks {
   /// Runs `body` on all ranks. If some throw, all throw the exception of the lowest of these ranks, as a class of
   /// bie/support/errors.hpp, OutputError, std::logic_error or std::runtime_error.
   template <typename Body>
-  std::invoke_result_t<const Body&> together(const Body& body) const {
+  std::invoke_result_t<const Body&> collective(const Body& body) const {
     if (is_alone()) return body();
     if constexpr (std::is_void_v<std::invoke_result_t<const Body&>>) {
       guarded(body);
