@@ -46,14 +46,13 @@ void add_shape(auto& scene) {
   reduced_volume("oblate", {0.1, 1.0}, definition);
   reduced_volume("biconcave", {0.5, 0.75}, "6√π V/A^{3/2}; absent: 0.65");
   reduced_volume("stomatocyte", {0.1, 0.65}, "6√π V/A^{3/2}, required, this or excess_area; open towards −z");
-  shape.of("ellipsoid", "radial")
+  shape.of("ellipsoid", "radial", "file")
       .key("reduced_volume", &ShapeScene::reduced_volume, {0.1, 1.0},
            {"v", "1",
             "6√π V/A^{3/2}, reached by moving all points towards the sphere of this area or away from it; absent: as "
             "it is"});
-  shape.of("ellipsoid", "prolate", "oblate", "biconcave", "stomatocyte", "radial")
-      .key("excess_area", &ShapeScene::excess_area, not_negative,
-           {"Δ", "1", "A/a_V² − 4π, a_V the radius of the sphere of this volume: v = (1 + Δ/4π)^{-3/2}"});
+  shape.key("excess_area", &ShapeScene::excess_area, not_negative,
+            {"Δ", "1", "A/a_V² − 4π, a_V the radius of the sphere of this volume: v = (1 + Δ/4π)^{-3/2}"});
   auto radial = shape.of("radial");
   radial.key("base", &ShapeScene::base, {"", "length", "constant part of the radius; may be left out with area"})
       .default_has_effect = [](const Scene& s) { return !s.shape.area; };

@@ -140,7 +140,7 @@ void settle_reduced_volume(const Scene& scene, ShapeScene& shape, const TomlFile
     }
     shape.excess_area.reset();
   }
-  if (shape.reduced_volume || shape.kind == ShapeKind::ellipsoid || shape.kind == ShapeKind::radial) return;
+  if (shape.reduced_volume || !has_unit_size(shape.kind)) return;
   if (shape.kind != ShapeKind::biconcave) {
     file.refuse(*file.find("shape"), "missing key \"reduced_volume\" in [shape] ({}); accepted: {}", key->description,
                 key->accepted_text());

@@ -113,9 +113,9 @@ BOOST_AUTO_TEST_CASE(missing_parts) {
 BOOST_AUTO_TEST_CASE(key_of_another_kind) {
   BOOST_TEST(message_with("[flow]\nkind='shear'\nrate=1\ngradient=[[0,0,1],[0,0,0],[0,0,0]]\n") ==
              "scene.toml:11: key \"gradient\" in [flow] belongs to kind \"gradient\", not to \"shear\"");
-  BOOST_TEST(message_of("[shape]\nkind='file'\npath='run.h5'\nreduced_volume=0.9\n") ==
-             "scene.toml:4: key \"reduced_volume\" in [shape] belongs to kinds \"prolate\", \"oblate\", \"biconcave\", "
-             "\"stomatocyte\", \"ellipsoid\", \"radial\", not to \"file\"");
+  BOOST_TEST(message_with("[flow]\nkind='gradient'\nrate=1\n") ==
+             "scene.toml:10: key \"rate\" in [flow] belongs to kinds \"shear\", \"planar_extension\", "
+             "\"axisymmetric_extension\", not to \"gradient\"");
 }
 
 BOOST_AUTO_TEST_CASE(excess_area_stands_for_a_reduced_volume) {

@@ -1,5 +1,6 @@
 #include "bie/scene/shapes/initial_shape.hpp"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,16 +59,26 @@ Matrix radial_position(const Scene& scene) {
       transform, [&](Index i, double theta, double phi) -> Vector3 { return radius(i) * direction(theta, phi); }));
 }
 
-/// x_s + t (x − x_s), x_s the sphere of the same area, with the t that gives the reduced volume v. t is found by the
-/// secant method for √(1 − v), which is nearly proportional to t.
+/// The sphere of the area of a membrane about the origin whose points are nearest to those of the membrane, which may
+/// have moved within its shape.
+/// Source: the orthogonal Procrustes problem, Schönemann 1966
+Matrix nearest_sphere(const Matrix& position) {
+  const double radius = std::sqrt(size_of(position).area / (4.0 * std::numbers::pi));
+  const Matrix sphere = ellipsoid_position({radius, radius, radius}, order_of(position.rows()));
+  const Eigen::JacobiSVD<Matrix3> svd(position.transpose() * sphere, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return sphere * svd.matrixV() * svd.matrixU().transpose();
+}
+
+/// x_s + t (x − x_s), x_s the nearest sphere of the same area, with the t that gives the reduced volume v. t is found
+/// by the secant method for √(1 − v), which is nearly proportional to t.
 /// @return nullopt if there is no such t, or if a ray from the centre would meet the membrane twice
 std::optional<Matrix> with_reduced_volume(const Matrix& position, double reduced_volume) {
   constexpr int most_passes = 40;
   constexpr double rounding = 1e-13;  // of v
-  const int order = order_of(position.rows());
-  const double radius = std::sqrt(size_of(position).area / (4.0 * std::numbers::pi));
-  const Matrix sphere = ellipsoid_position({radius, radius, radius}, order);
-  const auto moved = [&](double t) -> Matrix { return sphere + t * (position - sphere); };
+  Matrix shape = position;
+  shape.row(0).setZero();
+  const Matrix sphere = nearest_sphere(shape);
+  const auto moved = [&](double t) -> Matrix { return sphere + t * (shape - sphere); };
   const auto depth = [&](double t) {
     const ShapeSize size = size_of(moved(t));
     const double v = 6.0 * std::sqrt(std::numbers::pi) * size.volume / std::pow(size.area, 1.5);
@@ -81,14 +92,15 @@ std::optional<Matrix> with_reduced_volume(const Matrix& position, double reduced
     before = std::exchange(t, next);
     depth_before = std::exchange(now, depth(t));
   }
-  const SphereTransform transform = shape_transform(order);
+  const SphereTransform transform = shape_transform(order_of(position.rows()));
   const Vector outwards = transform.synthesize(moved(t)).cwiseProduct(transform.synthesize(sphere)).rowwise().sum();
-  return outwards.minCoeff() > 0.0 ? std::optional(without_rounding(moved(t))) : std::nullopt;
+  if (!(outwards.minCoeff() > 0.0)) return std::nullopt;
+  Matrix result = without_rounding(moved(t));
+  result.row(0) = position.row(0);
+  return result;
 }
 
-bool is_moved(const ShapeScene& shape) {
-  return shape.reduced_volume && (shape.kind == ShapeKind::ellipsoid || shape.kind == ShapeKind::radial);
-}
+bool is_moved(const ShapeScene& shape) { return shape.reduced_volume && !has_unit_size(shape.kind); }
 
 /// Factor from numbers of a shape file to those of the scene, 1 if either lacks the scale. check_scene refuses a scene
 /// that needs the scale.

@@ -23,8 +23,8 @@ Matrix initial_position(const Scene& scene);
 /// Does a shape of this kind have the area 4π unless the scene gives an area or a scale?
 bool has_unit_size(ShapeKind kind);
 
-/// Does the shape have the reduced volume of the scene, if one is given? An ellipsoid or radial shape is moved towards
-/// a sphere or away from it to reach that volume, which may fail.
+/// Does the shape have the reduced volume of the scene, if one is given? An ellipsoid, a radial shape or one from a
+/// file is moved towards a sphere or away from it to reach that volume, which may fail.
 bool has_reduced_volume(const Scene& scene);
 
 /// The snapshot with which a scene of [shape] kind "file" starts.
