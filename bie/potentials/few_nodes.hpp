@@ -10,7 +10,13 @@
 namespace vehd {
 
 /// Number of nodes that one instruction handles: the doubles of a register.
-constexpr Index kTogether = Eigen::internal::packet_traits<double>::size;
+#if defined(__AVX512F__)
+constexpr Index kTogether = 8;
+#elif defined(__AVX__)
+constexpr Index kTogether = 4;
+#else
+constexpr Index kTogether = 2;
+#endif
 /// One register of values.
 using Few = Lanes<kTogether>::Values;
 
