@@ -88,6 +88,8 @@ BOOST_FIXTURE_TEST_CASE(run_file_keeps_its_layout, Run) {
   run(quick_scene());
   const vehd::Hdf5Reader file(output + "/run.h5");
   BOOST_TEST(file.integer_attribute("/", "schema_version") == 1);
+  const std::string fftw = file.text_attribute("/", "version_fftw");
+  BOOST_TEST(run_vehd({"--version"}).output.find("\nfftw " + fftw + "\n") != std::string::npos, fftw);
   BOOST_TEST(file.vector("/grid/theta").size() == 7);
   BOOST_TEST(file.vector("/grid/phi").size() == 14);
   BOOST_TEST(file.vector("/grid/weight").size() == 7);
