@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -121,13 +122,17 @@ class MpiLink : public RankLink {
   int rank_ = 0, size_ = 1;
 };
 
+bool is_started_by_launcher() {
+  return std::ranges::any_of(kSetByLaunchers, [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
 }  // namespace
 
-Ranks mpi_ranks() {
-  for (const char* name : kSetByLaunchers) {
-    if (std::getenv(name) != nullptr) return Ranks(std::make_shared<MpiLink>());
-  }
-  return {};
+Ranks mpi_ranks() { return is_started_by_launcher() ? Ranks(std::make_shared<MpiLink>()) : Ranks(); }
+
+int separate_tasks() {
+  const char* tasks = std::getenv("SLURM_STEP_NUM_TASKS");
+  return tasks == nullptr || is_started_by_launcher() ? 1 : std::atoi(tasks);
 }
 
 }  // namespace vehd

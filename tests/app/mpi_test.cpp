@@ -126,6 +126,20 @@ BOOST_FIXTURE_TEST_CASE(wrong_input_is_said_once, AnyContainer) {
   BOOST_TEST(result.errors.find(run.scene, 1) == std::string::npos, result.errors);
 }
 
+BOOST_AUTO_TEST_CASE(several_tasks_of_slurm_without_mpi_are_refused) {
+  const RunOnRanks run("0.1");
+  const auto among = [&run](const std::string& tasks) {
+    return run_command({"env", "SLURM_STEP_NUM_TASKS=" + tasks, VEHD_MPI_PROGRAM, "run", run.scene, "-o", run.output,
+                        "--no-plot", "--quiet"});
+  };
+  const ProgramResult refused = among("2");
+  BOOST_TEST(refused.exit_code == 1);
+  BOOST_TEST(refused.errors.starts_with("srun has started 2 tasks without MPI"), refused.errors);
+  BOOST_TEST(refused.errors.find("srun --mpi=pmix") != std::string::npos, refused.errors);
+  const ProgramResult one = among("1");
+  BOOST_TEST(one.exit_code == 0, one.errors);
+}
+
 BOOST_FIXTURE_TEST_CASE(a_signal_leaves_a_resumable_run, AnyContainer) {
   RunOnRanks run("10000.0");
   RunningProgram program(run.on("2"));

@@ -239,7 +239,7 @@ BOOST_FIXTURE_TEST_CASE(a_slurm_script_has_the_options_of_the_cluster, SweepWork
 BOOST_AUTO_TEST_CASE(the_script_for_one_run_works_in_scratch_space_and_brings_its_files_back) {
   const TemporaryDirectory directory;
   fs::create_directories(directory / "bin");
-  write_text(directory / "bin/srun", "#!/bin/sh\nshift\nexec \"$@\"\n");
+  write_text(directory / "bin/srun", "#!/bin/sh\necho \"$1\" > " + directory / "mpi\nshift 2\nexec \"$@\"\n");
   write_text(directory / "bin/scontrol", "#!/bin/sh\necho \"$*\" >> " + directory / "turns\n");
   for (const char* program : {"bin/srun", "bin/scontrol"}) {
     fs::permissions(directory / program, fs::perms::owner_all);
@@ -252,6 +252,7 @@ BOOST_AUTO_TEST_CASE(the_script_for_one_run_works_in_scratch_space_and_brings_it
                         VEHD_SOURCE_DIR "/docs/slurm/one_run.sbatch", directory / "scene.toml", output});
   };
   BOOST_TEST_REQUIRE(submit(VEHD_PROGRAM).exit_code == 0);
+  BOOST_TEST(file_text(directory / "mpi") == "--mpi=pmix\n");
   BOOST_TEST(json_of(output + "/summary.json").at("completed").get<bool>());
   BOOST_TEST(fs::is_empty(directory / "scratch"));
   BOOST_TEST(!fs::exists(directory / "turns"));

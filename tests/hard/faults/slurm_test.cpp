@@ -19,6 +19,12 @@ bool slurm_can_be_started() {
          run_command({"sh", "-c", "command -v slurmctld slurmd sbatch munged"}).exit_code == 0;
 }
 
+bool slurm_is_missing() {
+  if (slurm_can_be_started()) return false;
+  std::cout << "Not tried: cmake -DSTEP=slurm -P bie/setup.cmake\n";
+  return true;
+}
+
 /// A real Slurm on this machine, for the lifetime of the object.
 class OwnSlurm {
  public:
@@ -56,10 +62,7 @@ class OwnSlurm {
 BOOST_AUTO_TEST_SUITE(slurm, *boost::unit_test::label("alone"))
 
 BOOST_AUTO_TEST_CASE(arrays_and_tasks_of_slurm_are_workers_of_one_sweep) {
-  if (!slurm_can_be_started()) {
-    std::cout << "Not tried: cmake -DSTEP=slurm -P bie/setup.cmake\n";
-    return;
-  }
+  if (slurm_is_missing()) return;
   const OwnSlurm slurm;
   const SweepWork work(quick_scene("20"));
   work.write_sweep("\"electric.conductivity_in\" = {from = 0.5, to = 2.0, count = 8}\n");
@@ -96,5 +99,21 @@ BOOST_AUTO_TEST_CASE(arrays_and_tasks_of_slurm_are_workers_of_one_sweep) {
   BOOST_TEST(result.exit_code == 0, result.errors);
   BOOST_TEST((work.table() == work.table(undisturbed)));
 }
+
+#ifdef VEHD_MPI_PROGRAM
+// If each of its two tasks were alone, one of them would find the directory in use, and the job would fail.
+BOOST_AUTO_TEST_CASE(the_script_for_one_run_connects_its_tasks) {
+  if (slurm_is_missing()) return;
+  const OwnSlurm slurm;
+  const TemporaryDirectory directory;
+  write_text(directory / "scene.toml", quick_scene("0.5"));
+  const ProgramResult job =
+      run_command({"env", "VEHD=" VEHD_MPI_PROGRAM, "TMPDIR=" + directory / "scratch", "sbatch", "--wait",
+                   "--cpus-per-task=1", "--output=" + directory / "log", VEHD_SOURCE_DIR "/docs/slurm/one_run.sbatch",
+                   directory / "scene.toml", directory / "out"});
+  BOOST_TEST(job.exit_code == 0, job.errors << file_text(directory / "log"));
+  BOOST_TEST(json_of(directory / "out/summary.json").at("completed").get<bool>());
+}
+#endif
 
 BOOST_AUTO_TEST_SUITE_END()
