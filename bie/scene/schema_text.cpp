@@ -30,7 +30,7 @@ not depend on them. With a table `[units]`, even an empty one, a number that has
 with an SI unit, `"10 um"`, also as a component of a vector, `[0, 0, "1 kV/cm"]`; it is divided by the reference
 scale of its dimension (section Units). A plain number is in units of the reference scale. A key whose default is a
 number with a dimension, other than 0, is then required. Results are shown in SI units as well
-([files of a run](run_files.md#units)). Energies may be in `kBT` where `[units]` has a `temperature`. Shapes of other
+([units](units.md)). Energies may be in `kBT` where `[units]` has a `temperature`. Shapes of other
 runs: [starting from a shape](continuing.md#starting-from-a-shape-kind--file).
 )";
 

@@ -67,7 +67,7 @@ struct VesicleDiagnostics {
   double inclination_deg = 0;
   double area_drift = 0, volume_drift = 0;  ///< relative, signed
   double strain_max = 0;                    ///< max |W/W_ref − 1|
-  double spectrum_tail = 0;                 ///< see docs/conventions.md
+  double spectrum_tail = 0;                 ///< see docs/columns.md
   double wrinkle_degree = 0;                ///< see wrinkle_degree()
   double wrinkling_rate = 0;                ///< see wrinkling_rate(), at the mean tension, up to degree p
   double quadrature_error = 0;              ///< LayerCheck::error
