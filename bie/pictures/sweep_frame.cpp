@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "bie/pictures/gnuplot.hpp"
@@ -34,6 +36,27 @@ std::optional<KeyNumbers> numbers_of(const std::vector<std::string>& texts) {
     numbers.values.push_back(quantity->number);
   }
   return numbers;
+}
+
+/// The component in which vectors or lists differ, if it is one, [0, 0, "2 V/cm"] as 2 V/cm; otherwise the values as
+/// they are.
+std::vector<std::string> without_constant_components(const std::vector<std::string>& values) {
+  std::vector<std::vector<std::string>> vectors;
+  for (std::string text : values) {
+    if (!text.starts_with('[')) return values;
+    std::erase_if(text, [](char letter) { return std::string_view("[]{}\"").find(letter) != std::string_view::npos; });
+    std::istringstream parts(text);
+    vectors.emplace_back();
+    for (std::string part; std::getline(parts >> std::ws, part, ',');) vectors.back().push_back(part);
+    if (vectors.back().size() != vectors.front().size()) return values;
+  }
+  std::vector<std::vector<std::string>> varied;
+  for (std::size_t k = 0; !vectors.empty() && k < vectors.front().size(); ++k) {
+    std::vector<std::string> component;
+    for (const auto& vector : vectors) component.push_back(vector[k]);
+    if (std::ranges::count(component, component.front()) < std::ssize(component)) varied.push_back(component);
+  }
+  return varied.size() == 1 ? varied.front() : values;
 }
 
 /// @param of_one_unit  whether the axis has the unit
@@ -112,7 +135,8 @@ bool are_even(const std::vector<double>& values) {
 
 }  // namespace
 
-SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>& values, bool is_logarithmic) {
+SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>& written, bool is_logarithmic) {
+  const std::vector<std::string> values = without_constant_components(written);
   const auto numbers = numbers_of(values);
   const std::string label = label_of(key, numbers);
   if (!numbers || numbers->values.empty()) return side_by_side(label, values, numbers.has_value());
@@ -124,7 +148,8 @@ SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>&
   return between(label, numbers->values, least, most);
 }
 
-SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& values) {
+SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& written) {
+  const std::vector<std::string> values = without_constant_components(written);
   const auto numbers = numbers_of(values);
   const std::string label = label_of(key, numbers);
   if (!numbers || values.size() <= most_ticks) return side_by_side(label, values, numbers.has_value());

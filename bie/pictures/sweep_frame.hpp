@@ -21,12 +21,13 @@ struct SweepAxis {
 };
 
 /// Axis of the values of a key as its table shows them ("0.5", "10 kHz", "shear"). Numbers of one unit are placed by
-/// value, or by logarithm if requested; other values side by side.
-SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>& values, bool is_logarithmic);
+/// value, or by logarithm if requested; other values side by side. Vectors that differ in one component are that
+/// number.
+SweepAxis axis_of_values(const std::string& key, const std::vector<std::string>& written, bool is_logarithmic);
 
 /// Axis of cells of equal size, one for each value in the given order. Many values with even steps, or with even steps
 /// of their logarithms, get ticks at round numbers.
-SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& values);
+SweepAxis axis_of_cells(const std::string& key, const std::vector<std::string>& written);
 
 /// Axis of numbers with some room at both ends; NaN stays NaN.
 SweepAxis axis_of_numbers(const std::string& label, const std::vector<double>& values);

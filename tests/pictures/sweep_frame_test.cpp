@@ -62,4 +62,25 @@ BOOST_AUTO_TEST_CASE(numbers_of_several_units_keep_them) {
   }
 }
 
+// Regression: whole vectors ran out of the picture.
+BOOST_AUTO_TEST_CASE(vectors_that_differ_in_one_component_are_that_number) {
+  std::vector<std::string> values, components;
+  for (const char* component : {"2 V/cm", "5 V/cm", "20 V/cm", "400 V/cm", "1000 V/cm"}) {
+    components.emplace_back(component);
+    values.push_back(fmt::format("[0, 0.5, \"{}\"]", component));
+  }
+  const auto compare = [](const vehd::SweepAxis& axis, const vehd::SweepAxis& expected) {
+    BOOST_TEST(axis.label == expected.label);
+    BOOST_TEST(axis.label.ends_with("(V/cm)"), axis.label);
+    BOOST_TEST(axis.places == expected.places, boost::test_tools::per_element());
+    BOOST_TEST_REQUIRE(axis.ticks.size() == expected.ticks.size());
+    for (std::size_t i = 0; i < axis.ticks.size(); ++i) BOOST_TEST(axis.ticks[i].text == expected.ticks[i].text);
+  };
+  compare(vehd::axis_of_cells("electric.field", values), vehd::axis_of_cells("electric.field", components));
+  compare(vehd::axis_of_values("electric.field", values, false),
+          vehd::axis_of_values("electric.field", components, false));
+  const std::vector<std::string> several{"[0, 0, 1]", "[0, 1, 0]"};
+  BOOST_TEST(vehd::axis_of_cells("electric.field", several).ticks[1].text == several[1]);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
