@@ -1,43 +1,41 @@
-# From a fresh Debian 12 or 13 with git, cmake and g++ to a result; run it from anywhere:
-#   cmake -P bie/setup.cmake               installs what is missing, builds, simulates Example 2 of the paper
-#   cmake -DSTEP=test -P bie/setup.cmake   installs what is missing, deal.II, gmsh and Python among it, builds, runs the tests
-#                                          of both halves
-#   cmake -DSTEP=build -P bie/setup.cmake  installs what is missing, builds
-#   cmake -DSTEP=check -P bie/setup.cmake  installs deal.II and gmsh as well, builds the finite-element check, compares the
-#                                          two methods on the first shape of Example 2
-#   cmake -DSTEP=python -P bie/setup.cmake   installs pybind11 and numpy as well, builds the module of Python in
-#                                            build/python, runs Example 1 of the paper with it
-#   cmake -DSTEP=callgrind -P bie/setup.cmake  installs valgrind, counts the instructions of a run without electricity:
-#                                              none in electric code, next to none in bookkeeping
-#   cmake -DSTEP=faults -P bie/setup.cmake    kills a run 200 times, damages runs at 1000 places and breaks files and disk
-#                                             in every other way
-#   cmake -DSTEP=slurm -P bie/setup.cmake     installs Slurm, starts one of this machine alone and gives it a sweep; as root
-#   cmake -DSTEP=sanitize -P bie/setup.cmake  installs clang, runs all tests under address and undefined-behaviour
-#                                             sanitizers
-#   cmake -DSTEP=fuzz -P bie/setup.cmake      installs clang, fuzzes each reader of files for 10 minutes; -DSECONDS=60
-#                                             before -P for another time
+# Goes from a fresh Debian 12 or 13 with git, cmake and g++ to a result, called from any folder. Each step installs the Debian
+# packages that it needs and that are missing:
+#   cmake -P bie/setup.cmake               builds vehd and simulates Example 2 of the paper
+#   cmake -DSTEP=test -P bie/setup.cmake   builds vehd, the finite-element check and the module of Python, and runs the tests
+#   cmake -DSTEP=build -P bie/setup.cmake  builds vehd
+#   cmake -DSTEP=check -P bie/setup.cmake  builds the finite-element check and compares the two methods on the first shape of
+#                                          Example 2
+#   cmake -DSTEP=python -P bie/setup.cmake   builds the module of Python in build/python, runs Example 1 of the paper with it
+#   cmake -DSTEP=callgrind -P bie/setup.cmake  counts the instructions of a run without electricity: none may be in electric
+#                                              code, and next to none in bookkeeping
+#   cmake -DSTEP=faults -P bie/setup.cmake    kills a run 200 times, damages runs at 1000 places and makes files and the disk
+#                                             fail in every other way
+#   cmake -DSTEP=slurm -P bie/setup.cmake     starts a Slurm on this machine alone and tests sweeps and a run with it; as root
+#   cmake -DSTEP=sanitize -P bie/setup.cmake  runs all tests with clang's address and undefined-behaviour sanitizers
+#   cmake -DSTEP=fuzz -P bie/setup.cmake      fuzzes each reader of files for 10 minutes with clang; -DSECONDS=60 before -P
+#                                             changes the time
 #   cmake -DSTEP=docs -P bie/setup.cmake   renews every picture of the pages, and every table that the program measures itself
 #   cmake -DSTEP=site -P bie/setup.cmake   makes one site of the pages, the Python API and the interfaces of all headers, in
-#                                          build/site, with executed notebooks where build has the module of Python;
-#                                          compiles nothing
-#   cmake -DSTEP=package -P bie/setup.cmake   builds a Debian package for every x86-64, in build-levels, lets lintian read
-#                                             it and tries it
+#                                          build/site; executes the notebooks if build has the module of Python; compiles
+#                                          nothing
+#   cmake -DSTEP=package -P bie/setup.cmake   builds a Debian package for every x86-64 in build-levels, checks it with lintian
+#                                             and tests it
 #   cmake -DSTEP=archive -P bie/setup.cmake   builds archives for every x86-64 that need no package manager, one with the
-#                                             finite elements and one without, in build-archive, and tries them
-# Before -P, for every step:
-#   -DINSTALL=OFF                   installs nothing: says what is missing, and goes on where it can do without
-#   -DVEHD_FEM_CHECK=OFF            test and archive leave out the finite-element check, and what it needs. With ON build and
-#                                   docs include it and install what it needs; without either, where deal.II and gmsh are
-#                                   there
-#   -DVEHD_PYTHON=OFF               test, package and archive leave out the module of Python, and what it needs. With ON build
-#                                   and docs include it and install what it needs; without either, where pybind11 and numpy
-#                                   are there
-#   -DVEHD_MPI=ON                   builds a vehd that runs on several processes, and installs what it needs
-#   -DVEHD_ARCHITECTURE=x86-64-v3   builds for this instruction set, in build-x86-64-v3, instead of that of this machine;
-#                                   levels: for every x86-64, the numerical libraries for its newer levels as well
-#   -DVEHD_TEST_LEVEL=x86-64-v3     test runs the tests that rounding could change once more, on numerical libraries for this
-#                                   instruction set, which build makes as well
-#   -DEXTENDED=ON                   test runs those labelled extended as well (docs/building.md)
+#                                             finite elements and one without, in build-archive, and tests them
+# Options before -P, for every step:
+#   -DINSTALL=OFF                   installs nothing: names missing packages, and continues if the step can do without them
+#   -DVEHD_FEM_CHECK=OFF            test and archive omit the finite-element check and the packages that it needs. With ON,
+#                                   build and docs include it and install its packages; without this option they include it
+#                                   if deal.II and gmsh are installed
+#   -DVEHD_PYTHON=OFF               test, package and archive omit the module of Python and the packages that it needs. With
+#                                   ON, build and docs include it and install its packages; without this option they include
+#                                   it if pybind11 and numpy are installed
+#   -DVEHD_MPI=ON                   builds a vehd that runs on several processes
+#   -DVEHD_ARCHITECTURE=x86-64-v3   builds for this instruction set, in build-x86-64-v3, instead of for this machine. levels
+#                                   builds for every x86-64, with the numerical libraries for its newer levels as well
+#   -DVEHD_TEST_LEVEL=x86-64-v3     build compiles the numerical libraries for this instruction set as well, and test repeats
+#                                   on them the tests that rounding could change
+#   -DEXTENDED=ON                   test also runs the tests labelled extended (docs/building.md)
 #   -DOTHER_DEBIAN=ON               test continues in a bare system of the other Debian release, 13 or 12
 #   -DTESTS=REGEX                   test runs only the tests whose names match
 #   -DCMAKE_COMPILE_WARNING_AS_ERROR=ON   a warning of the compiler ends the build
@@ -83,7 +81,7 @@ elseif(NOT DEFINED VEHD_PYTHON)
   endif()
 endif()
 
-# A folder for each instruction set: none is compiled again because another was in between.
+# Each instruction set has its own build folder, so that switching between them recompiles nothing.
 set(build "${source}/build")
 if(STEP MATCHES "^(package|archive)$")
   set(VEHD_ARCHITECTURE levels)
@@ -94,10 +92,10 @@ if(NOT VEHD_ARCHITECTURE STREQUAL "native")
   set(build "${source}/build-${VEHD_ARCHITECTURE}")
 endif()
 if(STEP STREQUAL "archive")
-  # The package is built without finite elements, unless asked for.
+  # The package is by default built without finite elements, so the two steps do not share a folder.
   set(build "${source}/build-archive")
 elseif(STEP STREQUAL "callgrind")
-  # Valgrind does not know the instructions of every new processor: those that the compiler takes by itself.
+  # Valgrind does not know the instructions of every new processor, so the compiler uses its default set.
   set(VEHD_ARCHITECTURE "")
   set(build "${source}/build-callgrind")
 elseif(STEP MATCHES "^(sanitize|fuzz)$")
@@ -112,8 +110,8 @@ function(run_or_stop)
   endif()
 endfunction()
 
-# What a step needs beside the libraries, which the configuration looks for (bie/cmake/dependencies.cmake): the Debian
-# packages of what is not there.
+# Debian packages of the programs, fonts and Python modules that the step needs and that are missing. The configuration
+# looks for the libraries (bie/cmake/dependencies.cmake).
 set(missing)
 macro(need_program package)
   find_program(found_${package} NAMES ${ARGN} NO_CACHE)
@@ -129,7 +127,7 @@ macro(need_python_module package module)
 endmacro()
 
 if(STEP STREQUAL "site")
-  # The site needs none of the tools that compile and draw.
+  # The site needs no tools that compile or draw.
   include("${CMAKE_CURRENT_LIST_DIR}/cmake/site_tools.cmake")
   list(APPEND missing ${missing_site_tools})
 else()
@@ -148,11 +146,11 @@ if(STEP MATCHES "^(test|sanitize)$")
   need_program(xvfb xvfb-run)
   need_program(xauth xauth)
   need_program(zsh zsh)
-  # They read the words of pictures back.
+  # They read the text in pictures.
   need_program(poppler-utils pdftotext)
 endif()
 if(STEP MATCHES "^(test|sanitize|docs)$")
-  # The tests, and the pages with pictures of their own, open a report in a browser, make a movie and read a run from
+  # The tests, and the pages whose pictures are renewed, open a report in a browser, make a movie and read a run from
   # Python.
   need_program(chromium chromium)
   need_program(chromium-driver chromedriver)
@@ -163,20 +161,20 @@ if(STEP MATCHES "^(test|sanitize|docs)$")
   need_python_module(python3-matplotlib matplotlib)
 endif()
 if(STEP STREQUAL "test" AND VEHD_PYTHON)
-  # The tests solve with scipy, make a table of pandas and execute the notebooks.
+  # The tests solve with scipy, make a pandas table and execute the notebooks.
   need_python_module(python3-scipy scipy)
   need_python_module(python3-pandas pandas)
   need_python_module(python3-nbconvert nbconvert)
   need_python_module(python3-ipykernel ipykernel)
 endif()
 if(STEP MATCHES "^(test|sanitize|package)$")
-  # A Debian package of the build is made, read and tried.
+  # These steps make a Debian package of the build, check it and test it.
   need_program(help2man help2man)
   need_program(dpkg-dev dpkg-shlibdeps)
   need_program(lintian lintian)
 endif()
 if(STEP STREQUAL "archive" OR (STEP STREQUAL "test" AND EXTENDED))
-  # An archive of the build is made, and tried in a bare system.
+  # These steps make an archive of the build and test it in a bare system.
   need_program(patchelf patchelf)
   need_program(xz-utils xz)
   need_program(mmdebstrap mmdebstrap)
@@ -185,7 +183,7 @@ if(STEP STREQUAL "test" AND OTHER_DEBIAN)
   need_program(mmdebstrap mmdebstrap)
 endif()
 if(STEP STREQUAL "archive")
-  # The container of the archive is built.
+  # This step builds the container of the archive.
   need_program(buildah buildah)
 endif()
 if(STEP STREQUAL "callgrind")
@@ -207,8 +205,8 @@ if(STEP MATCHES "^(sanitize|fuzz)$")
   endif()
 endif()
 
-# Installs Debian packages, after saying which and how. Scripts of packages speak of errors where there are none (of
-# PETSC's alternatives, for example): all is shown only where apt-get fails.
+# Prints the names of Debian packages and the command, then installs them. Scripts of packages print errors although nothing
+# is wrong (PETSc's alternatives, for example), so the output of apt-get is shown only if it fails.
 function(install_packages)
   set(packages ${ARGN})
   list(REMOVE_DUPLICATES packages)
@@ -254,7 +252,7 @@ if(STEP STREQUAL "site")
   run_or_stop("${CMAKE_COMMAND}" -DSITE=${source}/build/site -P bie/cmake/site.cmake)
   return()
 endif()
-# One compiler needs up to 2 GB of memory.
+# One compiler process needs up to 2 GB of memory.
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)
 math(EXPR jobs "${memory} / 2000")
@@ -276,7 +274,7 @@ foreach(option IN ITEMS CMAKE_COMPILE_WARNING_AS_ERROR VEHD_TEST_LEVEL VEHD_MPI)
   endif()
 endforeach()
 if(VEHD_FEM_CHECK OR STEP MATCHES "^(test|build|archive|docs)$")
-  # The other steps leave a build with the check as it is.
+  # The other steps keep the setting of an existing build.
   list(APPEND options -DVEHD_FEM_CHECK=${VEHD_FEM_CHECK})
 endif()
 if(VEHD_PYTHON OR STEP MATCHES "^(test|build|package|archive|docs|sanitize)$")
@@ -293,7 +291,7 @@ else()
   list(APPEND configure -S "${source}" -B "${build}" -DCMAKE_BUILD_TYPE=Release)
 endif()
 list(APPEND configure ${options})
-# The first try finds out which libraries are missing; its messages are shown where that is not what stops it.
+# The first configuration finds missing libraries. Its messages are shown unless missing libraries are why it stops.
 execute_process(COMMAND ${configure} WORKING_DIRECTORY "${source}" RESULT_VARIABLE status OUTPUT_VARIABLE messages
                 ERROR_VARIABLE messages)
 set(missing_file "${build}/missing_packages.txt")
@@ -309,7 +307,7 @@ else()
 endif()
 if(STEP MATCHES "^(test|sanitize)$")
   run_or_stop("${CMAKE_COMMAND}" --build "${build}" --parallel ${jobs})
-  # One test more than there are processors: some wait for the disk, for a browser or for a process that they have ended.
+  # One test more than there are processors runs at a time, because some wait for the disk, a browser or a process.
   math(EXPR tests "${jobs} + 1")
   set(left_out --label-exclude extended)
   if(EXTENDED OR STEP STREQUAL "sanitize")
@@ -343,8 +341,8 @@ if(STEP STREQUAL "slurm")
 endif()
 if(STEP STREQUAL "fuzz")
   foreach(fuzzer IN LISTS fuzzers)
-    # New finds go to the first folder; the second holds the seeds that the tests replay. Leaks of HDF5 on damaged files
-    # are not this program's to mend.
+    # The fuzzer adds new inputs to the first folder; the second holds the seeds that the tests replay. Leaks are not
+    # reported because HDF5 itself leaks memory on damaged files.
     file(MAKE_DIRECTORY "${build}/corpus/${fuzzer}")
     run_or_stop("${build}/fuzz_${fuzzer}" -max_total_time=${SECONDS} -timeout=20 -rss_limit_mb=2048 -detect_leaks=0
                 -max_len=8192 -use_value_profile=1 -print_final_stats=1 "-artifact_prefix=${build}/corpus/"
@@ -378,11 +376,11 @@ if(STEP STREQUAL "python")
   message(STATUS "Python finds it with: export PYTHONPATH=${build}/python")
 endif()
 if(STEP STREQUAL "run")
-  # --resume: a second call continues an interrupted run and leaves a complete one alone.
+  # With --resume a second call continues an interrupted run and leaves a complete one unchanged.
   set(simulate "${build}/vehd" run docs/scenes/figure2.toml -o out/figure2 --resume)
   execute_process(COMMAND sh -c ": > /dev/tty" RESULT_VARIABLE no_terminal OUTPUT_QUIET ERROR_QUIET)
   if(no_terminal EQUAL 0)
-    # CMake hands a pipe to its commands; the progress bar wants the terminal itself.
+    # CMake gives its commands a pipe, but the progress bar needs the terminal.
     run_or_stop(sh -c "exec \"$0\" \"$@\" 2> /dev/tty" ${simulate})
   else()
     run_or_stop(${simulate})

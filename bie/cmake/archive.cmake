@@ -1,10 +1,10 @@
 # Makes archives of a build, in BUILD/archive, that run without a package manager: vehd-VERSION-x86_64-linux.tar.xz, and one
-# with "plain" in its name that leaves the finite elements out, with all that only they need:
+# with "plain" in its name that omits the finite elements and all files that only they need:
 #   cmake -DBUILD=build-archive -P bie/cmake/archive.cmake
-# Before -P: -DXZ=-1 compresses less, in a tenth of the time.
+# -DXZ=-1 before -P compresses less, in a tenth of the time.
 #
-# An archive is what cmake --install makes, and beside that files of this Debian, each where Debian has it below /usr: the
-# libraries, Python with numpy, gnuplot with a font, Open MPI. The C library is that of the system where it is unpacked.
+# An archive contains the files of cmake --install and files of this Debian: libraries, Python with numpy, gnuplot with a
+# font, and Open MPI, each at its place below /usr. It uses the C library of the system where it is unpacked.
 cmake_minimum_required(VERSION 3.25)
 
 if(NOT DEFINED XZ)
@@ -15,19 +15,19 @@ get_filename_component(BUILD "${BUILD}" ABSOLUTE)
 file(STRINGS "${BUILD}/CMakeCache.txt" version REGEX "^CMAKE_PROJECT_VERSION:")
 string(REGEX REPLACE ".*=" "" version "${version}")
 set(debian_libraries lib/x86_64-linux-gnu)
-# Libraries that others name although vehd never calls them: gnuplot's for other formats, which bring video codecs, and
-# HDF5's for files on the network. With them an archive would be twice as large.
+# Other libraries are linked with these, but vehd never calls them: gnuplot's library for other formats, which needs video
+# codecs, and HDF5's libraries for files on the network. They would double the size of an archive.
 set(left_out libgd.so.3 libcurl.so.4 libcrypto.so.3)
-# Parts of Python and numpy that are not carried: tests, tools of developers, and what needs libraries that are left out.
+# The archive omits these parts of Python and numpy: tests, tools for developers, and modules that need omitted libraries.
 set(left_out_of_python
     "/(test|tests|idlelib|tkinter|lib2to3|distutils|f2py|ensurepip|turtledemo|pydoc_data|__pycache__|_pyinstaller)/"
     "/lib-dynload/(_ssl|_hashlib|_sqlite3|_curses|_curses_panel|_dbm|_gdbm|_tkinter|nis|_test|_ctypes_test|_xxtest|xx)"
     "/python3\\.[0-9]+/dist-packages/" "/numpy/core/_simd\\." "/sitecustomize\\.py$" "\\.a$")
-# Plugins of Open MPI that are not carried: networks and schedulers of clusters, as the check runs on one machine, and
+# The archive omits these plugins of Open MPI: networks and schedulers of clusters, because the check runs on one machine, and
 # OpenSHMEM.
 set(left_out_of_mpi "_(rsh|ucx|ofi|openib|psm2?|flux|jsm|slurm|gridengine)\\.so$" "/mca_(memheap|spml|scoll|sshmem|atomic)_"
     "dbg_msgq")
-# Packages of headers alone, which are compiled into vehd.
+# These packages contain only headers, which are compiled into vehd.
 set(header_packages libeigen3-dev libboost-dev libcli11-dev nlohmann-json3-dev pybind11-dev)
 
 function(run)
@@ -51,7 +51,7 @@ if(c_library VERSION_GREATER 2.36)
 is older")
 endif()
 
-# Copies a file of this system into the archive, what a link leads to in its place, and notes it for the licences.
+# Copies a file of this system into the archive, following links, and records it for the licences.
 function(carry file place)
   file(REAL_PATH "${file}" real)
   get_filename_component(folder "${stage}/${place}" DIRECTORY)
@@ -60,7 +60,7 @@ function(carry file place)
   set_property(GLOBAL APPEND PROPERTY carried "${real}")
 endfunction()
 
-# Files of Debian packages below a folder, except those that match one of the patterns after it.
+# Returns the files of Debian packages below a folder, except those that match one of the patterns after it.
 function(files_of_packages result packages folder)
   run(dpkg -L ${packages} OUTPUT text)
   string(REGEX REPLACE "\n" ";" files "${text}")
@@ -77,7 +77,7 @@ function(files_of_packages result packages folder)
   set(${result} "${found}" PARENT_SCOPE)
 endfunction()
 
-# The symbols of libraries and programs, each with its version.
+# Returns the symbols of libraries and programs, each with its version.
 function(symbols_of result kind)
   run(nm -D ${kind} ${ARGN} OUTPUT text)
   string(REGEX MATCHALL " [A-Za-z] [^\n]+" symbols "${text}")
@@ -87,7 +87,7 @@ function(symbols_of result kind)
   set(${result} "${symbols}" PARENT_SCOPE)
 endfunction()
 
-# Puts a library in the place of one that is left out: what others name of it is there, and ends the program if called.
+# Replaces an omitted library by one with the functions that other files are linked with; each ends the program if called.
 function(replace_library name)
   execute_process(COMMAND grep -rlF ${name} "${stage}/${debian_libraries}" "${stage}/lib/vehd/programs" OUTPUT_VARIABLE users
                   OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -95,7 +95,7 @@ function(replace_library name)
     return()
   endif()
   string(REPLACE "\n" ";" users "${users}")
-  # Not those alone that they miss: of variables they have copies, to be filled from the library.
+  # All symbols count, not only undefined ones: programs hold copies of variables, which the library initialises.
   symbols_of(wanted --format=bsd ${users})
   symbols_of(known --defined-only /usr/${debian_libraries}/${name})
   set(code "#include <stdio.h>\n#include <stdlib.h>\nvoid absent(void) {\n\
@@ -120,8 +120,8 @@ function(replace_library name)
       "${work}/${name}.c")
 endfunction()
 
-# Libraries that the programs and modules in the archive need, but for those of the C library, which must be that of the
-# system, and for those left out.
+# Copies the libraries that the programs and modules in the archive need, except the omitted ones and those of the C library,
+# which the system must provide.
 function(carry_libraries)
   file(GLOB_RECURSE programs "${stage}/bin/*" "${stage}/lib/vehd/programs/*")
   file(GLOB_RECURSE modules "${stage}/lib/*.so" "${stage}/lib/vehd/*.so.*")
@@ -132,7 +132,7 @@ function(carry_libraries)
   files_of_packages(c_library libc6 /)
   list(TRANSFORM c_library REPLACE ".*/" "")
   foreach(name IN LISTS conflicting_FILENAMES)
-    # The same file by two paths.
+    # The same file was found by two paths.
     list(GET conflicting_${name} 0 path)
     list(APPEND libraries "${path}")
   endforeach()
@@ -188,8 +188,8 @@ function(carry_mpi)
   endforeach()
 endfunction()
 
-# Programs and modules of Python look for libraries by their own place first, whatever LD_LIBRARY_PATH a cluster sets; this
-# counts for the libraries that they load as well, so these lose what Debian has set.
+# Programs and modules of Python search for libraries relative to their own place first, whatever LD_LIBRARY_PATH a cluster
+# sets. Their path also applies to the libraries that they load, so these lose the paths that Debian has set.
 function(set_run_paths)
   file(GLOB_RECURSE programs "${stage}/bin/*" "${stage}/lib/vehd/programs/*")
   file(GLOB_RECURSE own "${stage}/lib/vehd/*.so.*")
@@ -211,12 +211,12 @@ function(set_run_paths)
   endforeach()
 endfunction()
 
-# The copyright file of every package of which something is carried, the texts that these name, and the versions, by which
-# Debian has the sources.
+# Copies the copyright file of every package with a file in the archive and the licence texts that it names, and writes the
+# versions, by which Debian's archive finds the sources.
 function(write_licences)
   get_property(files GLOBAL PROPERTY carried)
   list(REMOVE_DUPLICATES files)
-  # Debian's list names some files without the /usr that is before them.
+  # dpkg lists some files without their leading /usr.
   list(TRANSFORM files REPLACE "^/usr/lib/x" "/lib/x" OUTPUT_VARIABLE other_names)
   execute_process(COMMAND dpkg -S ${files} ${other_names} OUTPUT_VARIABLE owners ERROR_QUIET)
   string(REGEX MATCHALL "(^|\n)[^ \n]+: [^\n]+" lines "${owners}")

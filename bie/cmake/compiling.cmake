@@ -1,48 +1,49 @@
-# vehd_flags: what everything that includes a header of vehd has to agree on. vehd_compilation: how vehd itself is
-# compiled; nobody else inherits it.
+# vehd_flags holds the options on which all code that includes a header of vehd must agree. vehd_compilation holds the
+# options for vehd's own code; installed targets do not pass them on.
 add_library(vehd_flags INTERFACE)
 target_include_directories(vehd_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                                 $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vehd>)
 target_compile_features(vehd_flags INTERFACE cxx_std_20)
-# Parallelism is explicit in vehd's own loops: Eigen's would change the order of sums with the thread count. Memory is
-# aligned as the widest instruction set needs it, so that parts compiled for different ones can share matrices.
+# Only vehd's own loops are parallel: Eigen's parallelism would change the order of sums with the number of threads. Memory
+# has the alignment of the widest instruction set, so that code compiled for different sets can share matrices.
 target_compile_definitions(vehd_flags INTERFACE EIGEN_DONT_PARALLELIZE EIGEN_MAX_ALIGN_BYTES=64)
 target_link_libraries(vehd_flags INTERFACE Eigen3::Eigen fmt::fmt OpenMP::OpenMP_CXX)
 
 add_library(vehd_compilation INTERFACE)
 target_compile_options(vehd_compilation INTERFACE -Wall -Wextra -Wshadow -fno-math-errno -fno-trapping-math)
-# GCC 12 sees uninitialised registers inside its own AVX-512 headers.
+# GCC 12 warns of uninitialised registers inside its own AVX-512 headers.
 target_compile_options(vehd_compilation INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
                                                   -Wno-uninitialized)
-# It collects its garbage at a gigabyte: at its own limit it spends a seventh of its time on that.
+# GCC collects its garbage only above a gigabyte: with its default limit it spends a seventh of its time on this.
 target_compile_options(vehd_compilation INTERFACE "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-heapsize=1000000>")
 if(CMAKE_UNITY_BUILD)
-  # Every file is then included by another, whose names are not seen by others either, and meets those of its neighbours.
+  # A unity build includes each file in another: its internal types then seem to be in a header, and its names may shadow
+  # those of its neighbours.
   target_compile_options(vehd_compilation INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>
                                                     $<$<CXX_COMPILER_ID:Clang>:-Wno-shadow>)
 endif()
-# Without optimisation clang says so of every loop that it leaves as it is.
+# Without optimisation clang warns of every loop that it does not vectorise.
 target_compile_options(vehd_compilation INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>)
 if(VEHD_CCACHE)
   target_compile_options(vehd_compilation INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
                                                     "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 endif()
 if(architecture)
-  # The property is that of the target which is compiled: set for what is built for several instruction sets.
+  # Targets that are built for several instruction sets name theirs in the property VEHD_LEVEL.
   set(level $<TARGET_PROPERTY:VEHD_LEVEL>)
   target_compile_options(vehd_compilation INTERFACE -march=$<IF:$<BOOL:${level}>,${level},${architecture}>)
 endif()
-# What takes no time by itself.
+# Options for code whose own running time does not matter.
 set(quickly_compiled)
 if(BUILD_SHARED_LIBS)
-  # A library calls its own functions, which nobody replaces, and keeps its own instance of a template, which may be
-  # compiled otherwise than others'.
+  # A library calls its own functions, which no other library replaces, and keeps its own instances of templates, because
+  # other libraries may have been compiled with other options.
   set(quickly_compiled $<$<CONFIG:Release>:-O1>)
   target_compile_options(vehd_compilation INTERFACE -fvisibility-inlines-hidden -fno-semantic-interposition)
   add_link_options(-Wl,-Bsymbolic -Wl,--enable-new-dtags)
 endif()
-# Matrices of other libraries (Debian's gmsh has Eigen inside) are aligned, and so freed, otherwise: what the compiler
-# leaves out of line here must not take the place of theirs.
+# Other libraries (Debian's gmsh contains Eigen) align matrices differently, and so free them differently: functions that the
+# compiler does not inline here must not replace theirs.
 add_link_options(-Wl,--version-script=${CMAKE_CURRENT_LIST_DIR}/own_templates.map)
 if(VEHD_SANITIZE)
   target_compile_options(vehd_compilation INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all

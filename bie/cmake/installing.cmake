@@ -1,5 +1,5 @@
-# cmake --install: program, libraries and headers by floor for find_package(vehd), man pages, shell completion, scenes and
-# pages. cpack -G DEB makes a Debian package of them.
+# cmake --install installs the program, libraries and headers for find_package(vehd), manual pages, shell completion, scenes
+# and pages. cpack -G DEB makes a Debian package of them.
 get_property(modules GLOBAL PROPERTY vehd_modules)
 get_property(level_modules GLOBAL PROPERTY vehd_level_modules)
 
@@ -32,7 +32,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CITATION.cff ${PROJECT_SOURCE_DIR}/CHANGELOG.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-# What the program says of itself: it has to run on the machine that builds it.
+# The program prints its own completion and manual pages, so it must run on the machine that builds it.
 set(texts ${PROJECT_BINARY_DIR}/texts)
 set(completions ${texts}/vehd ${texts}/_vehd)
 add_custom_command(OUTPUT ${completions}
@@ -44,7 +44,7 @@ set(pages)
 find_program(HELP2MAN help2man)
 mark_as_advanced(HELP2MAN)
 if(HELP2MAN)
-  # One page for the program and one for each command, as git has them.
+  # The program and each command have a manual page, as with git.
   set(commands run sweep plan plot report check mesh verify bench examples)
   set(pages ${texts}/vehd.1.gz)
   foreach(command IN LISTS commands)

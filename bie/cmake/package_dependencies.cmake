@@ -1,7 +1,7 @@
-# Read by cpack, after what it was configured with.
+# cpack reads this file after its configuration.
 
-# Sets CPACK_DEBIAN_PACKAGE_DEPENDS to the Debian packages of what the programs and libraries LINKED need, those of folder
-# LIBRARIES aside, which are their own. FOLDER is there for dpkg-shlibdeps, which expects a source package.
+# Sets CPACK_DEBIAN_PACKAGE_DEPENDS to the Debian packages of the libraries that the programs and libraries LINKED need, except
+# their own ones in the folder LIBRARIES. dpkg-shlibdeps runs in FOLDER, because it expects a source package.
 macro(find_package_dependencies)
   cmake_parse_arguments(dependencies "" "FOLDER;LIBRARIES" "LINKED" ${ARGN})
   find_program(dependencies_program dpkg-shlibdeps REQUIRED NO_CACHE)

@@ -1,15 +1,15 @@
-# The module of Python: build/python/vehd, compiled part and texts side by side as they are installed. Only it knows
-# pybind11.
+# The module of Python in build/python/vehd: its compiled part and its Python files are in one folder, as when installed. No
+# other code uses pybind11.
 set(python_source ${PROJECT_SOURCE_DIR}/bie/python)
 set(python_package ${CMAKE_BINARY_DIR}/python/vehd)
-# Where Debian's python3 looks in /usr, below the prefix.
+# Debian's python3 searches this folder below /usr.
 set(VEHD_PYTHON_FOLDER lib/python3/dist-packages CACHE STRING "Where the module of Python is installed")
 
 file(GLOB sources CONFIGURE_DEPENDS ${python_source}/*.cpp)
 pybind11_add_module(vehd_python MODULE NO_EXTRAS ${sources})
 target_link_libraries(vehd_python PRIVATE vehd_bench vehd_fit vehd_compilation)
 target_compile_options(vehd_python PRIVATE ${quickly_compiled})
-# From the folder of the module to that of the libraries.
+# The module finds the libraries relative to its own folder.
 file(RELATIVE_PATH to_libraries /${VEHD_PYTHON_FOLDER}/vehd /${library_folder})
 set_target_properties(vehd_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${python_package}
                                              INSTALL_RPATH "$ORIGIN/${to_libraries}")
@@ -26,7 +26,7 @@ endforeach()
 add_custom_target(vehd_python_texts ALL DEPENDS ${copies})
 add_dependencies(vehd_python vehd_python_texts)
 
-# What a set-up ends with.
+# Runs Example 1 of the paper, the last action of bie/setup.cmake with -DSTEP=python.
 add_custom_target(vehd_python_example
                   COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_BINARY_DIR}/python ${Python3_EXECUTABLE} -m vehd
                   DEPENDS vehd_python USES_TERMINAL VERBATIM)

@@ -1,8 +1,8 @@
-# What makes the site: sphinx, doxygen and mathjax, and in missing_site_tools the Debian packages of what is not there.
+# Finds the tools that make the site, sphinx, doxygen and mathjax; missing_site_tools holds the Debian packages of missing ones.
 set(missing_site_tools)
 find_program(sphinx sphinx-build NO_CACHE)
 if(sphinx)
-  # Several Pythons may be there; the modules have to be those of the one that runs Sphinx.
+  # Several Pythons may be installed; the one that runs Sphinx must have the modules.
   file(STRINGS "${sphinx}" python LIMIT_COUNT 1)
   string(REGEX REPLACE "^#! *" "" python "${python}")
   separate_arguments(python)

@@ -1,11 +1,12 @@
-"""How good error bars are, and what they cost, of shipped scenes at some tolerances:
+"""Measures quality and cost of error bars for shipped scenes at given tolerances:
 
     python3 docs/examples/error_bar_coverage.py build/vehd --tolerance 1e-2,1e-3 figure2 dc_pulse
 
-Each scene runs with error bars, without, and at the tolerance of the reference. A row at a snapshot counts by its largest
-bar and its largest error, each over the largest value of its column: the share of rows whose bar is above the error, and
-of those whose bar is below 30 times the error. Then the median of bar over error, its range, and what error bars add to
-the processor seconds of the run, the least of two of either kind. The last line has the shares of all rows.
+Each scene runs with error bars, without them, and at the tolerance of the reference. Bars and errors are divided by the
+largest value of their column; a row at a snapshot has the largest bar and the largest error of its columns. Each line prints
+the share of rows whose bar is above the error, the share whose bar is below 30 times the error, median and range of bar over
+error, and the additional processor time with error bars, from the faster of two runs of either kind. The last line prints
+the shares of all rows.
 """
 
 import argparse
@@ -21,7 +22,7 @@ import sys
 import tempfile
 
 SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
-# Those that get by with less than the end of the scene or have few snapshots: end and time between snapshots.
+# End and time between snapshots of scenes that are long or have few snapshots.
 SHORTENED = {
     "ac_field_averaged": ('"125 ms"', '"6.25 ms"'),
     "figure5_half": ("2.5", "0.125"),
@@ -29,14 +30,14 @@ SHORTENED = {
     "settling_in_shear": ('"3 s"', '"0.25 s"'),
     "two_prolates": ("5.0", "0.25"),
 }
-# What worst_error of the program counts.
+# The columns that count for error_bars in summary.json.
 COLUMNS = ["reduced_volume", "bending_energy_scaled", "tension_integral", "Vm_north", "q_north", "Vm_max", "extent_x",
            "extent_y", "extent_z", "inclination_deg", "smallest_gap"]
 UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
 def scene_at(name: str, tolerance: str, error_bars: bool) -> str:
-    """The scene with degree and order of the tolerance."""
+    """Returns the scene with degree and order that follow from the tolerance."""
     text = re.sub(r"\n(degree|dt|tolerance|time_order) = .*", "", (SCENES / f"{name}.toml").read_text())
     bars = "true" if error_bars else "false"
     text = text.replace("[numerics]", f"[numerics]\ntolerance = {tolerance}\nerror_bars = {bars}")
@@ -48,13 +49,13 @@ def scene_at(name: str, tolerance: str, error_bars: bool) -> str:
 
 
 def seconds_of(text: str, key: str) -> float:
-    """A time of the scene; without a unit as it is."""
+    """Returns a time of the scene, in seconds if it has a unit."""
     value, _, unit = re.search(rf'\n{key} = "?([^"\n]*)', text).group(1).partition(" ")
     return float(value) * UNITS.get(unit, 1.0)
 
 
 def run(program: str, text: str, folder: pathlib.Path) -> float:
-    """Processor seconds of a run of one thread."""
+    """Runs the scene on one thread and returns its processor seconds."""
     folder.mkdir(parents=True)
     (folder / "scene.toml").write_text(text)
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
@@ -69,7 +70,7 @@ def table(path: pathlib.Path) -> list:
 
 
 def numbered(rows: list) -> dict:
-    """Rows by time; where the forcing jumps there are two, told apart by a number."""
+    """Returns rows by time and a number, because a jump of the forcing has two rows."""
     result, count = {}, {}
     for index, row in enumerate(rows):
         time = float(f"{row['time']:.8g}")
@@ -94,7 +95,7 @@ def largest(difference, sizes: dict) -> float:
 
 
 def ratios_of(folder: pathlib.Path, reference: pathlib.Path, n_snapshots: int) -> list:
-    """Bar over error at the snapshots after the start."""
+    """Returns bar over error at the snapshots after the start."""
     history, errors = table(folder / "run/history.csv"), table(folder / "run/history_error.csv")
     exact = table(reference / "run/history.csv")
     sizes, there = sizes_of(history), numbered(exact)
@@ -109,7 +110,7 @@ def ratios_of(folder: pathlib.Path, reference: pathlib.Path, n_snapshots: int) -
 
 
 def shares(ratios: list) -> str:
-    """Rows whose bar is above the error, and below 30 times the error."""
+    """Returns the shares of bars above the error and below 30 times the error."""
     above = sum(ratio >= 1 for ratio in ratios) / len(ratios)
     below = sum(ratio <= 30 for ratio in ratios) / len(ratios)
     return f"{len(ratios)} rows, {100 * above:.0f} % above the error, {100 * below:.0f} % below 30 times"
@@ -127,7 +128,7 @@ def main() -> int:
     parser.add_argument("program")
     parser.add_argument("scenes", nargs="*", default=sorted(path.stem for path in SCENES.glob("*.toml")))
     parser.add_argument("--tolerance", type=lambda text: text.split(","), default=["1e-3"], help="such as 1e-2,1e-3")
-    parser.add_argument("--reference", default="1e-6", help="tolerance of what counts as true")
+    parser.add_argument("--reference", default="1e-6", help="tolerance of the runs that count as exact")
     arguments = parser.parse_intermixed_args()
     all_ratios = []
     with tempfile.TemporaryDirectory() as temporary:
@@ -137,7 +138,7 @@ def main() -> int:
             for tolerance in arguments.tolerance:
                 folder = pathlib.Path(temporary) / f"{name}_of_{tolerance}"
                 text, plain_text = scene_at(name, tolerance, True), scene_at(name, tolerance, False)
-                # What else the machine does makes runs slower, never faster.
+                # Other load of the machine makes runs slower, never faster.
                 plain = min(run(arguments.program, plain_text, folder / f"plain_{k}") for k in range(2))
                 more = min(run(arguments.program, text, folder / f"bars_{k}") for k in range(2)) / plain - 1
                 n_snapshots = round(seconds_of(text, "end_time") / seconds_of(text, "every"))

@@ -1,9 +1,9 @@
-"""What a step of two vesicles costs against one of the tilted one alone:
+"""Compares the cost of a step of two vesicles with that of the tilted one alone:
 
     PYTHONPATH=build/python python3 docs/examples/pair_step_cost.py [--steps 40] [--degree 16]
 
-All simulations take turns step by step in one process, on one thread, so that what else the machine does falls on all
-alike. The first four steps, in which solves learn, are left out.
+All simulations take turns step by step in one process, on one thread, so that other load of the machine slows all of them
+equally. The first four steps are not counted: later solves are faster because they recycle directions of earlier ones.
 """
 
 import argparse
@@ -15,7 +15,7 @@ import tomllib
 import vehd
 
 PLACE_OF_GAP = {0.10: 2.33, 0.20: 2.43, 0.69: 2.92}  # x of the second centre
-LEARNING = 4
+NOT_COUNTED = 4  # first steps
 
 
 def scenes(degree: int) -> dict:
@@ -44,7 +44,7 @@ def main() -> None:
         for name, run in runs.items():
             begin = time.process_time()
             run.step()
-            if i >= LEARNING:
+            if i >= NOT_COUNTED:
                 seconds[name].append(time.process_time() - begin)
     alone = seconds["one alone"]
     for name, own in seconds.items():
