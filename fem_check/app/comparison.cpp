@@ -133,6 +133,7 @@ void compare_with_levels(const FieldQuestion& question, const LevelSequence& seq
   if (rough.size() > 0) {
     result.solver = solver_share * measure(rough - values_of(question, repeated)).l2;
   }
+  result.solver += measure.share_of(question.natural_size * question.solver_magnification * sequence.tolerance);
   if (values.size() < 3) return;
   const auto found = convergence({measure(values[last - 1] - values[last - 2]).l2, result.levels_change.l2},
                                  {n_unknowns[last - 2], n_unknowns[last - 1], n_unknowns[last]});

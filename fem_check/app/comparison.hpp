@@ -100,6 +100,9 @@ struct FieldQuestion {
   double natural_size = 1.0;
   /// Root mean square of the whole field if the points are only a part of it; 0: the points are all of it.
   double whole_size = 0.0;
+  /// Error of the levels relative to the natural size, over the tolerance of their solvers, if it can exceed the one
+  /// that looser tolerances show: where those already spoil the field. 0: it cannot.
+  double solver_magnification = 0.0;
   /// Errors are relative to the natural size, whatever the size of the field: its terms can cancel.
   bool is_remainder = false;
 };

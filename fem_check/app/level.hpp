@@ -53,9 +53,10 @@ constexpr int truncated_exterior_degree = usual_exterior_degree - 2;
 /// harmonics at the outer sphere, and with a looser tolerance of the linear solvers.
 struct LevelSequence {
   std::vector<Level> levels;
-  int repeated = 0;  ///< index of the repeated level
-  Level truncated;   ///< repetition with truncated_exterior_degree
-  Level rough;       ///< repetition with a tolerance larger by rough_factor
+  double tolerance = 0.0;  ///< of the linear solvers
+  int repeated = 0;        ///< index of the repeated level
+  Level truncated;         ///< repetition with truncated_exterior_degree
+  Level rough;             ///< repetition with a tolerance larger by rough_factor
 };
 
 }  // namespace vehd::fem_check

@@ -50,6 +50,7 @@ LevelSequence run_levels(const LevelPlan& plan, Meshes& meshes, const Report& re
   // Three levels are needed for an observed order.
   constexpr std::size_t fewest = 3;
   LevelSequence result;
+  result.tolerance = plan.tolerance;
   auto& levels = result.levels;
   for (const int degree : plan.degrees) {
     levels.push_back(solve_level_with(plan.problem, degree, {plan.tolerance}));

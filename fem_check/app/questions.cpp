@@ -87,7 +87,12 @@ std::vector<FieldQuestion> electric_questions(const CheckInput& input, const Com
   }
   if (input.steady()) {
     questions.list.push_back(questions.on_surface("Vm", "V_m steady", &BieFields::steady_potential, sizes.potential));
-    questions.list.push_back(questions.on_surface("q_steady", "q steady", &BieFields::steady_charge, sizes.charge));
+    FieldQuestion& steady = questions.list.emplace_back(
+        questions.on_surface("q_steady", "q steady", &BieFields::steady_charge, sizes.charge));
+    // The flux G_m V_m/σ of a small V_m, the difference of two large potentials.
+    for (const double conductivity : {input.physics.conductivity_in, input.physics.conductivity_out}) {
+      if (conductivity > 0.0) steady.solver_magnification += input.physics.conductance * places.radius / conductivity;
+    }
   }
   questions.list.push_back(questions.on_surface("force", "f_E", &BieFields::force_electric, sizes.electric_force));
   // Without the potential of the field at the centre of the shape, which would dominate far from the origin.

@@ -33,7 +33,7 @@ std::vector<Damage> all_damages() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_a_porated_membrane_conducts_is_the_same_by_both_methods_and_damage_is_noticed) {
+BOOST_AUTO_TEST_CASE(both_methods_agree_on_the_current_through_a_porated_membrane_and_notice_damage) {
   const FinishedRun run(scene_text);
   check_and_damage(run, "0.4", {"q", "force", "charging_current", "potential_inside", "potential_near"}, {"q", "force"},
                    all_damages());

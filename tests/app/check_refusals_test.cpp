@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(snapshot_that_lost_its_seal_is_refused) {
   BOOST_TEST(result.errors == file + ": /snapshots/000001 has lost its seal, /snapshots/000001/seal\n");
 }
 
-BOOST_AUTO_TEST_CASE(input_without_what_is_compared_is_refused) {
+BOOST_AUTO_TEST_CASE(input_without_compared_fields_is_refused) {
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml", moving_scene);
   const vehd::FrozenState frozen = vehd::read_frozen_state({directory / "scene.toml", {}}, std::nullopt);

@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(whatever_is_damaged_on_either_vesicle_is_noticed) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_cannot_be_checked_is_refused_in_one_line) {
+BOOST_AUTO_TEST_CASE(scenes_that_cannot_be_checked_are_refused_in_one_line) {
   const TemporaryDirectory directory;
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& message) {
     const ProgramResult result = run_vehd(arguments);

@@ -81,6 +81,22 @@ BOOST_AUTO_TEST_CASE(fields_that_vanish_agree) {
   }
 }
 
+// Regression: q of the steady V_m disagreed from G_m R/σ = 1e8 on, which magnifies the tolerance of the elements'
+// solver.
+BOOST_AUTO_TEST_CASE(steady_charges_of_a_leaky_membrane_do_not_disagree) {
+  for (const char* conductance : {"1e6", "1e8", "1e10"}) {
+    const Check check = checked_scene(ellipsoid + "[membrane]\nmobile = false\nconductance = " + conductance +
+                                      "\n[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\n"
+                                      "conductivity_out = 2.0\n" +
+                                      numerics);
+    const nlohmann::json row = check.json["fields"]["q_steady"];
+    const bool is_magnified = std::string(conductance) != "1e6";
+    BOOST_TEST(row["verdict"] == (is_magnified ? "undecided" : "agree"), conductance << check.text);
+    BOOST_TEST((row["fem_error"] > check.json["required"]) == is_magnified, conductance << check.text);
+    BOOST_TEST(check.json["verdict"] != "disagree", conductance << check.text);
+  }
+}
+
 // f_b as a field is not resolved at its degree; its work is.
 BOOST_AUTO_TEST_CASE(first_command_of_the_page_agrees) {
   const Check check = checked(VEHD_SOURCE_DIR "/docs/scenes/figure2.toml");

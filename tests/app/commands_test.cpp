@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(every_command_writes_json) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(help_of_a_command_is_what_it_prints_itself) {
+BOOST_AUTO_TEST_CASE(help_of_a_command_equals_the_text_that_it_prints_itself) {
   for (auto command : commands_below({})) {
     if (command.front() == "help") continue;
     std::vector<std::string> topic = {"help"};

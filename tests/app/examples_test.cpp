@@ -12,7 +12,7 @@ fs::path shipped(const std::string& name) { return fs::path(VEHD_SOURCE_DIR) / "
 
 BOOST_AUTO_TEST_SUITE(examples, *boost::unit_test::label("once"))
 
-BOOST_AUTO_TEST_CASE(are_listed_with_what_they_show) {
+BOOST_AUTO_TEST_CASE(are_listed_with_their_subjects) {
   const TemporaryDirectory directory;
   const ProgramResult result = run_vehd({"examples", "--json", directory / "list.json"});
   BOOST_TEST(result.exit_code == 0, result.errors);

@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(scene_that_cannot_be_stepped_is_a_finding) {
 }
 
 // A plan takes only steps that the run takes: none if the run has no length, one to the end if dt exceeds the run.
-BOOST_AUTO_TEST_CASE(what_can_be_run_can_be_planned) {
+BOOST_AUTO_TEST_CASE(every_scene_that_runs_can_be_planned) {
   const std::string pair =
       "[shape]\nkind = \"ellipsoid\"\naxes = [1, 1, 1]\n[membrane]\nbending_modulus = 0.1\n[electric]\nfield = [0, 0, "
       "10]\nconductivity_in = 1\nconductivity_out = 2\ninitial_Vm = \"steady\"\n[numerics]\n";

@@ -118,7 +118,7 @@ BOOST_FIXTURE_TEST_CASE(every_field_and_view_is_drawn_and_others_are_refused, Pl
   BOOST_TEST(plot({"--field", "colour"}).exit_code == 1);
 }
 
-BOOST_AUTO_TEST_CASE(what_a_run_does_not_have_is_said_with_what_it_has) {
+BOOST_AUTO_TEST_CASE(a_missing_field_is_named_with_those_present) {
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml",
              "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.3]\n[membrane]\nbending_modulus = 0.1\n"

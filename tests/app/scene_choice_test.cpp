@@ -33,7 +33,7 @@ BOOST_FIXTURE_TEST_CASE(a_run_goes_to_a_folder_called_after_its_scene, WorkFolde
   BOOST_TEST(vehd("run some.toml --no-plot --set membrane.conductance=4").exit_code == 1);
 }
 
-BOOST_FIXTURE_TEST_CASE(a_run_has_what_is_set_and_its_scene_says_so, WorkFolder) {
+BOOST_FIXTURE_TEST_CASE(a_run_uses_the_settings_and_its_scene_records_them, WorkFolder) {
   const ProgramResult result =
       vehd("run some.toml --no-plot --set numerics.end_time=0.25 --set membrane.conductance=4");
   BOOST_TEST(result.exit_code == 0, result.errors);
@@ -53,7 +53,7 @@ BOOST_FIXTURE_TEST_CASE(a_run_has_what_is_set_and_its_scene_says_so, WorkFolder)
   BOOST_TEST(json("out/some/summary.json")["time"] == 0.5);
 }
 
-BOOST_FIXTURE_TEST_CASE(what_to_do_about_a_stopped_run_repeats_the_settings, WorkFolder) {
+BOOST_FIXTURE_TEST_CASE(advice_about_a_stopped_run_repeats_the_settings, WorkFolder) {
   // An electric stress that is too large for steps of this size.
   const ProgramResult result =
       vehd("run some.toml --no-plot --set 'electric.field=[0, 0, 1e5]' --set numerics.end_time=1e3");
@@ -76,7 +76,7 @@ BOOST_FIXTURE_TEST_CASE(plan_and_run_refuse_a_wrong_setting_in_one_line, WorkFol
   BOOST_TEST(!fs::exists(directory / "out"));
 }
 
-BOOST_FIXTURE_TEST_CASE(a_plan_follows_what_is_set, WorkFolder) {
+BOOST_FIXTURE_TEST_CASE(a_plan_follows_the_settings, WorkFolder) {
   const auto unknowns = [&](const std::string& settings) {
     BOOST_TEST_REQUIRE(vehd("plan some.toml --json plan.json " + settings).exit_code == 0);
     return json("plan.json")["unknowns"].get<int>();

@@ -47,7 +47,7 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 BOOST_AUTO_TEST_SUITE(si_output)
 
-BOOST_FIXTURE_TEST_CASE(units_change_what_is_shown_and_nothing_of_the_run, SiRun) {
+BOOST_FIXTURE_TEST_CASE(units_change_the_output_and_nothing_of_the_run, SiRun) {
   const std::string shown = run("shown", pulse()), plain = run("plain", pulse("units = \"dimensionless\"\n"));
   const vehd::HistoryTable si(shown + "/history.csv"), numbers(plain + "/history.csv");
   const vehd::OutputUnits units(vehd::read_scene(shown + "/scene.toml"));

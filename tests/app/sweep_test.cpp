@@ -46,7 +46,7 @@ BOOST_FIXTURE_TEST_CASE(any_number_of_workers_makes_one_table, SweepWork) {
              file_text(directory / "alone/history.csv"));
 }
 
-BOOST_FIXTURE_TEST_CASE(a_second_call_does_nothing_and_a_changed_sweep_what_is_new, SweepWork) {
+BOOST_FIXTURE_TEST_CASE(a_second_call_does_nothing_and_a_changed_sweep_only_its_new_runs, SweepWork) {
   write_sweep(conductivities);
   BOOST_TEST_REQUIRE(run().exit_code == 0);
   const auto rows = table();
@@ -154,7 +154,7 @@ BOOST_FIXTURE_TEST_CASE(a_run_whose_workers_are_killed_again_and_again_is_given_
   BOOST_TEST(column("reason")[0] == "21 workers were killed at it");
 }
 
-BOOST_FIXTURE_TEST_CASE(what_a_sweep_finds_does_not_depend_on_units, SweepWork) {
+BOOST_FIXTURE_TEST_CASE(results_of_a_sweep_do_not_depend_on_units, SweepWork) {
   // Lengths times 3, times times 7: conductivity, capacitance and conductance scale with time and length as Eq. (9) has
   // them, energies with viscosity.
   const auto scene = [](double length, double time) {

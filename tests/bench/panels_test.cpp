@@ -29,7 +29,7 @@ const std::string time_table =
 
 BOOST_AUTO_TEST_SUITE(panels)
 
-BOOST_FIXTURE_TEST_CASE(what_an_order_can_do_is_shown_apart_from_the_degree, Tables) {
+BOOST_FIXTURE_TEST_CASE(errors_of_an_order_are_shown_apart_from_the_degree, Tables) {
   const auto drawn = panels("time", time_table);
   BOOST_REQUIRE(drawn.size() == 2);
   BOOST_TEST(drawn[0].curves.size() == 3u);

@@ -27,7 +27,7 @@ double difference(const vehd::Matrix& a, const vehd::Matrix& b) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(degrees_beyond_those_of_layers_find_what_is_left_of_bent_ends) {
+BOOST_AUTO_TEST_CASE(degrees_beyond_those_of_layers_resolve_bent_ends) {
   const vehd::FrozenState needle = frozen("[0.6, 0.6, 3.0]", 56);
   const vehd::Matrix coarse = vehd::local_forces(needle, 56).bending, fine = vehd::local_forces(needle, 112).bending,
                      finest = vehd::local_forces(needle, 168).bending;

@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(a_table_of_many_jumps_is_planned) {
 }
 
 // Without measuring time the cost is unknown, which is no statement about the run.
-BOOST_AUTO_TEST_CASE(what_there_is_no_time_for_is_unknown) {
+BOOST_AUTO_TEST_CASE(costs_without_time_to_measure_them_are_unknown) {
   for (const char* keys : {"dt = 0.1\nend_time = 1\n", "tolerance = 1e-2\nend_time = 1\n"}) {
     const vehd::RunPlan plan = planned(scene_with_numerics(keys, kField), 0.0);
     BOOST_TEST(plan.stops == "");

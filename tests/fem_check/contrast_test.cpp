@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(charge_and_force_of_a_given_voltage_at_every_conductivity_r
   }
 }
 
-BOOST_AUTO_TEST_CASE(error_of_the_linear_solver_is_what_it_says_at_every_conductivity_ratio) {
+BOOST_AUTO_TEST_CASE(error_of_the_linear_solver_is_within_its_tolerance_at_every_conductivity_ratio) {
   const Discretisation space = discretise(unit_sphere(), {.degree = 4});
   const SurfacePoints points = space.quadrature_points(6);
   for (const double ratio : kRatios) {

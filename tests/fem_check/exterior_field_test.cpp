@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(charge_that_does_not_cancel_has_the_field_of_a_point) {
   BOOST_TEST(std::abs(potential[1] - 1.5 / sample.col(1).norm()) < 1e-3);
 }
 
-BOOST_AUTO_TEST_CASE(what_the_next_harmonic_leaves_falls_with_the_radius) {
+BOOST_AUTO_TEST_CASE(error_of_a_truncated_expansion_falls_with_the_radius) {
   // The prolate without a jump: error against the exact field inside, relative to that with the disturbance set to
   // zero. Only odd harmonics occur, so the next one is two degrees higher.
   const auto error = [](double radius, OuterCondition::Kind kind, int exterior_degree) {

@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(charging_of_a_sphere_gives_capacitance_and_conductance) {
   BOOST_TEST(std::abs(result.statistics.correlation(0, 1) - exact.correlation(0, 1)) < 0.05);
 }
 
-BOOST_AUTO_TEST_CASE(any_number_of_workers_finds_the_same_and_a_second_call_what_is_lost_alone) {
+BOOST_AUTO_TEST_CASE(any_number_of_workers_finds_the_same_and_a_second_call_computes_only_lost_runs) {
   const ChargingFit charging;
   const vehd::FitFile fit = charging.fit();
   const std::string first = vehd::json_of(fit, charging.result(fit)).dump();

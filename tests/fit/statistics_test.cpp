@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(a_parameter_at_an_end_of_its_interval_has_no_error) {
   BOOST_TEST(std::isnan(result.correlation(0, 1)));
 }
 
-BOOST_AUTO_TEST_CASE(what_is_determined_beside_an_undetermined_pair_keeps_its_interval) {
+BOOST_AUTO_TEST_CASE(a_determined_key_beside_an_undetermined_pair_keeps_its_interval) {
   const auto model = [](const Vector& p) {
     Vector values(2 * n_data);
     values << decay_by_ratio(p), straight_line(Vector{{p[2], 1.0}});

@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(start_counts_and_the_tolerance_stays_that_of_the_right_hand
   BOOST_TEST((solution.x - start).norm() == 0.0);
 }
 
-BOOST_AUTO_TEST_CASE(what_was_learned_of_a_similar_operator_saves_iterations_and_changes_no_solution) {
+BOOST_AUTO_TEST_CASE(recycling_from_a_similar_operator_saves_iterations_and_changes_no_solution) {
   const Matrix former = test_matrix(kSize);
   Matrix matrix = former;
   matrix.diagonal(2).setConstant(1e-3);
@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(an_operator_that_turns_by_a_right_angle_is_solved) {
   BOOST_TEST((matrix * solution.x - rhs).norm() < 1e-12);
 }
 
-BOOST_AUTO_TEST_CASE(what_cannot_be_solved_is_reported) {
+BOOST_AUTO_TEST_CASE(unsolvable_equations_are_reported) {
   Matrix singular = test_matrix(kSize);
   singular.row(7).setZero();
   const RecycledGcr::Solution solution =

@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(recycled_subspace_are_taken_to_their_arguments) {
   BOOST_TEST((inverse.apply(known.responses * shares) - known.arguments * shares).norm() < 1e-12);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_orthogonal_to_all_responses_stays) {
+BOOST_AUTO_TEST_CASE(vectors_orthogonal_to_all_responses_are_unchanged) {
   const RecycledSubspace known = known_of(test_matrix(), columns(7, 0.0));
   Vector r = columns(1, 2.0).col(0);
   r -= known.responses * known.responses.colPivHouseholderQr().solve(r);

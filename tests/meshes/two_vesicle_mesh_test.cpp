@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(mesh_does_not_depend_on_unit_or_place) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_cannot_be_meshed_is_refused) {
+BOOST_AUTO_TEST_CASE(pairs_that_cannot_be_meshed_are_refused) {
   const std::array<FrozenShape, 2> shapes = two_shapes(0.2);
   BOOST_TEST(mesh_error({shapes[0], shapes[0]}).find("no plane separates the two membranes") == 0);
   BoxMeshOptions options;

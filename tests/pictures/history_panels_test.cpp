@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(time_is_logarithmic_where_all_changes_are_at_the_start) {
   BOOST_TEST(!changes_at_the_start(std::vector{early, late}, times));
 }
 
-BOOST_AUTO_TEST_CASE(the_centroid_is_shown_of_what_settles_or_swims) {
+BOOST_AUTO_TEST_CASE(the_centroid_is_shown_of_vesicles_that_settle_or_swim) {
   const std::string rows = "time,aspect_ratio,centroid_z\n0,1.2,0\n1,1.1,1\n";
   const auto has_centroid = [&](const Scene& scene) {
     std::istringstream stream(rows);

@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(numbers_are_parts_of_the_largest_of_their_component_and_tim
   BOOST_TEST(vehd::packed_bytes(1) == 4 * 2 * 4 / 3);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_no_number_is_null) {
+BOOST_AUTO_TEST_CASE(infinities_and_nan_are_null) {
   BOOST_TEST(vehd::rounded_for_page(1.0 / 3.0).dump() == "0.333333");
   BOOST_TEST(vehd::rounded_for_page(std::nan("")).is_null());
   BOOST_TEST(vehd::rounded_for_page(std::numeric_limits<double>::infinity()).is_null());

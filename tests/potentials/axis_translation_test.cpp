@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(potentials_of_many_clouds_are_the_sums_over_their_points) {
   for (const Index columns : {1, 4}) BOOST_TEST(error(translation, clouds, kHighest, columns) < 1e-12);
 }
 
-BOOST_AUTO_TEST_CASE(what_a_degree_leaves_out_falls_like_the_ratio_of_radius_and_distance) {
+BOOST_AUTO_TEST_CASE(truncation_falls_like_the_ratio_of_radius_and_distance) {
   const AxisTranslation translation(kHighest);
   for (const double distance : {3.0, 4.0}) {
     for (const Vector3& centre : {Vector3(0.48, -0.6, 0.64), Vector3(0.0, 0.0, -1.0)}) {

@@ -59,7 +59,7 @@ double largest_error(const std::vector<Matrix>& found, const std::vector<Matrix>
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(give_what_direct_sums_do) {
+BOOST_AUTO_TEST_CASE(agree_with_direct_sums) {
   const std::vector<ExpandedMembrane> all = expanded(shapes());
   std::vector<Matrix> scalars, vectors;
   for (unsigned b = 0; b < all.size(); ++b) {

@@ -51,7 +51,7 @@ BOOST_AUTO_TEST_CASE(the_closest_of_several_are_found) {
   BOOST_TEST(close_pairs({shape}, 3.4).empty());
 }
 
-BOOST_AUTO_TEST_CASE(who_is_where) {
+BOOST_AUTO_TEST_CASE(arrangements_of_two_membranes_are_recognised) {
   const Matrix shape = ellipsoid(10, {1.0, 1.2, 1.5});
   const Matrix small = 0.2 * shape;
   BOOST_TEST((arrangement_of(shape, translated(shape, {2.001, 0.0, 0.0})) == Arrangement::apart));

@@ -148,7 +148,7 @@ BOOST_AUTO_TEST_CASE(cost_grows_with_the_logarithm_of_the_distance) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(only_what_is_asked_for_comes_back_and_sizes_must_agree) {
+BOOST_AUTO_TEST_CASE(only_requested_values_are_returned_and_sizes_must_agree) {
   const Matrix position = sphere(6);
   LayerDensities densities;
   densities.laplace_single = harmonic(6, 0, 0);

@@ -168,7 +168,7 @@ BOOST_FIXTURE_TEST_CASE(continued_runs_resume_bit_for_bit, Runs) {
   BOOST_TEST(vehd::HistoryTable(history("third")).column("time").front() == 0.5, boost::test_tools::tolerance(1e-12));
 }
 
-BOOST_FIXTURE_TEST_CASE(what_the_state_depends_on_may_not_change, Runs) {
+BOOST_FIXTURE_TEST_CASE(keys_that_define_the_state_may_not_change, Runs) {
   const std::string text = scene_text(field_along_x, 0.25);
   run("first", text);
   const auto has = [](const std::string& message, const std::string& part) {

@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(steps_that_the_charging_limits_make_differences) {
   check_nine_of_ten(shares_of(run, exact, every, every), "two_step_pulse");
 }
 
-BOOST_AUTO_TEST_CASE(no_row_is_wrong_by_less_than_a_part_of_what_its_degrees_leave_out) {
+BOOST_AUTO_TEST_CASE(no_error_bar_is_less_than_a_part_of_the_truncation) {
   // The shape hardly changes any more; the degree falls, and at times the companion has the same degree.
   vehd::Scene scene = shipped("ac_field_averaged", 1e-3);
   scene.numerics.end_time *= 0.125;
@@ -268,7 +268,7 @@ BOOST_AUTO_TEST_CASE(a_companion_beside_the_run_makes_the_same_errors_bit_for_bi
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_numerics_of_both_stay_what_they_were) {
+BOOST_AUTO_TEST_CASE(the_numerics_of_both_runs_are_unchanged) {
   const vehd::Scene before = pulsed("degree = 6\ndt = 0.01"), after = pulsed("degree = 6\ndt = 0.005");
   const Files run;
   run.go_on(before, 3);

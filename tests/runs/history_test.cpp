@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(a_history_names_its_units) {
   BOOST_TEST(notes.empty());
 }
 
-BOOST_AUTO_TEST_CASE(a_history_goes_on_after_what_the_checkpoint_counts) {
+BOOST_AUTO_TEST_CASE(a_history_continues_after_the_rows_that_the_checkpoint_counts) {
   const Written si(kUnits);
   const std::string text = file_text(si.path);
   write_text(si.path, text + "3,4");

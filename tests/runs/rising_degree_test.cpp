@@ -8,7 +8,7 @@
 
 BOOST_AUTO_TEST_SUITE(rising_degree, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
-BOOST_AUTO_TEST_CASE(what_solves_leave_at_every_degree_is_no_reason_for_more) {
+BOOST_AUTO_TEST_CASE(residuals_of_solves_do_not_raise_the_degree) {
   // Between its pulses the membrane becomes compressed: errors are expected to grow a hundred times, and the residual
   // of the solves of a first-order step, the same at degree 26 and at 64, exceeds the permitted truncation error.
   vehd::Scene scene = vehd::at_tolerance(vehd::read_scene(VEHD_SOURCE_DIR "/docs/scenes/two_step_pulse.toml"), 1e-7);
@@ -19,7 +19,7 @@ BOOST_AUTO_TEST_CASE(what_solves_leave_at_every_degree_is_no_reason_for_more) {
   BOOST_TEST(highest >= 26.0);
 }
 
-BOOST_AUTO_TEST_CASE(what_grows_a_million_times_is_as_exact_as_the_tolerance) {
+BOOST_AUTO_TEST_CASE(a_disturbance_that_grows_a_million_times_is_as_exact_as_the_tolerance) {
   // From the end of the first pulse to t = 1.2 disturbances of degree 25 grow 3e5 times and those of degree 40 more, so
   // earlier truncation and errors of steps at degrees that are not needed become visible.
   const auto history = [](double tolerance) {

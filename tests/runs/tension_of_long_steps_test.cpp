@@ -23,7 +23,7 @@ double tension(double tolerance, double share) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_steps_leave_is_magnified_by_a_membrane_that_becomes_taut) {
+BOOST_AUTO_TEST_CASE(errors_of_steps_are_magnified_by_a_membrane_that_becomes_taut) {
   // The field stretches the vesicle within a few steps, whose sweeps and quadrature have errors of a tenth of the
   // tolerance. The error of the tension is twenty times that.
   constexpr double share = 0.004;

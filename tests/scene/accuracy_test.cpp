@@ -17,7 +17,7 @@ std::string with_numerics(const std::string& numerics) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(tolerance_sets_what_the_scene_leaves_open) {
+BOOST_AUTO_TEST_CASE(tolerance_sets_the_numerics_that_the_scene_leaves_open) {
   const vehd::Scene scene = parsed(with_numerics("tolerance = 1e-3\n"));
   BOOST_TEST(*scene.numerics.tolerance == 1e-3);
   BOOST_TEST(scene.numerics.order == 32);

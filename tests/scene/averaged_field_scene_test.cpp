@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(a_field_that_is_followed_in_time_is_none) {
   BOOST_TEST(!vehd::is_averaged(model));
 }
 
-BOOST_AUTO_TEST_CASE(what_has_no_effect_is_refused) {
+BOOST_AUTO_TEST_CASE(keys_without_effect_are_refused) {
   BOOST_TEST(is_refused_for(scene_with("initial_Vm = \"steady\"\n", "average = true\n"), "\"initial_Vm\""));
   BOOST_TEST(is_refused_for(scene_with("", "average = true\nphase = 1\n"), "\"phase\""));
   BOOST_TEST(is_refused_for(scene_with("displacement_current = true\n", "average = true\n"), "\"permittivity\""));
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(different_permittivities_need_the_charge_where_they_count) 
   BOOST_TEST(needs("permittivity = 1\ndisplacement_current = true\n"));
 }
 
-BOOST_AUTO_TEST_CASE(plan_says_what_the_average_leaves_out) {
+BOOST_AUTO_TEST_CASE(plan_names_the_effects_that_the_average_leaves_out) {
   const auto ripple = [](const std::string& frequency) {
     const vehd::Scene scene = parsed(with_appended(
         "[electric]\nfield = [0, 0, 1]\nconductivity_in = 1\nconductivity_out = 2\n[electric.waveform]\nkind = "

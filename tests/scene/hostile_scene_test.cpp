@@ -18,7 +18,7 @@ std::string numerics(const std::string& text) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(no_key_takes_what_is_not_a_finite_number) {
+BOOST_AUTO_TEST_CASE(every_key_refuses_numbers_that_are_not_finite) {
   int count = 0;
   for (const vehd::KeyDescription& key : vehd::scene_keys()) {
     for (const char* number : {"nan", "inf", "-inf"}) {

@@ -67,7 +67,7 @@ SphereTransform transform_of(int order, bool axisymmetric) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(place_is_the_same_on_every_shape_at_every_order_up_to_what_the_order_leaves_out) {
+BOOST_AUTO_TEST_CASE(place_is_the_same_on_every_shape_at_every_order_up_to_truncation) {
   const GridAngles points = grid_angles(make_grid(8));
   const SphereTransform finest = transform_of(kHighest, false);
   std::vector<Matrix> exact;

@@ -22,7 +22,7 @@ BOOST_AUTO_TEST_CASE(windows_and_times_are_read_with_their_units) {
   BOOST_TEST(*times.next(0.02, 2.0) == 0.1);
 }
 
-BOOST_AUTO_TEST_CASE(wrong_windows_and_times_say_what_is_accepted) {
+BOOST_AUTO_TEST_CASE(messages_about_wrong_windows_and_times_name_the_accepted_ones) {
   const auto message = [](const std::string& output) { return message_of(with_appended("[output]\n" + output)); };
   BOOST_TEST(message("window = [{from = 1, to = 1, every = 0.1}]\n") ==
              "scene.toml:9: \"window\" in [output] goes from 1 to 1 every 0.1; accepted: a later \"to\" and an "

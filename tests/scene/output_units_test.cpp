@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(default_is_si_where_the_scene_has_units) {
              "scene.toml:9: \"units\" in [output] is \"si\", but the scene has no table [units]");
 }
 
-BOOST_AUTO_TEST_CASE(what_has_no_scale_stays_dimensionless) {
+BOOST_AUTO_TEST_CASE(columns_without_scale_stay_dimensionless) {
   const vehd::OutputUnits units = units_of(with_appended("[units]\nlength = \"1 um\"\n[fluid]\nviscosity = 1\n"));
   BOOST_TEST(units.of("length").symbol == "um");
   BOOST_TEST(!units.of("time").is_si());
@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_has_begun_keeps_its_symbols) {
 }
 
 // The expected values are written out by hand.
-BOOST_AUTO_TEST_CASE(every_prefix_is_what_its_name_says) {
+BOOST_AUTO_TEST_CASE(every_prefix_has_the_factor_of_its_name) {
   const vehd::UnitsScene ones{1.0, 1.0, 1.0, 1.0};
   for (const auto& [prefix, size] : {std::pair{"M", 1e6},
                                      {"k", 1e3},

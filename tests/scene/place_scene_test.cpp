@@ -31,7 +31,7 @@ double factor_at(const vehd::Vector& factor, double theta, double phi) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(factors_are_what_the_keys_say) {
+BOOST_AUTO_TEST_CASE(factors_follow_the_keys) {
   vehd::PlaceScene places;
   places.base = 2.0;
   places.modes = {{1, 0, 0.5}, {2, -1, 0.3}};
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(harmonics_come_from_a_file) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_has_no_effect_or_does_not_go_with_places_is_refused) {
+BOOST_AUTO_TEST_CASE(keys_without_effect_or_incompatible_with_places_are_refused) {
   const std::string pump = "[membrane.pump]\ncurrent = 1\n" + cap;
   BOOST_TEST(refuses_places(pump, "[membrane.pump] has no effect without [electric]"));
   BOOST_TEST(refuses_places(charged + "[membrane.pump]\n" + cap, "missing key \"current\""));

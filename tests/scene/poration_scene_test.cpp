@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(thresholds_have_units) {
   BOOST_TEST(std::abs(*scene.poration->lysis_tension - 4e5) < 1e-6);
 }
 
-BOOST_AUTO_TEST_CASE(what_it_needs_or_does_not_go_with_is_said) {
+BOOST_AUTO_TEST_CASE(missing_and_incompatible_keys_are_refused) {
   BOOST_TEST(refuses(in_a_field, "threshold_Vm = 1\n", "missing key \"model\" in [poration]"));
   BOOST_TEST(refuses(in_a_field, "model = \"criteria\"\n", "criterion"));
   BOOST_TEST(refuses(in_a_field, "model = \"criterion\"\n", "\"threshold_Vm\" or \"lysis_tension\""));

@@ -31,7 +31,7 @@ std::string problem_of(const Settings& settings, const std::string& text = in_sh
 
 BOOST_AUTO_TEST_SUITE(settings)
 
-BOOST_AUTO_TEST_CASE(take_the_place_of_what_the_file_says) {
+BOOST_AUTO_TEST_CASE(replace_the_values_of_the_file) {
   const vehd::Scene scene =
       with({"flow.rate=2.5", "numerics.end_time = 4", "membrane.bending_modulus=1", "shape.axes=[1, 2, 3]"});
   BOOST_TEST(scene.flow->rate == 2.5);
@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(of_two_for_one_key_the_later_counts) {
   BOOST_TEST(with({"flow.rate=2", "flow.rate=3"}).flow->rate == 3.0);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_no_toml_is_a_text) {
+BOOST_AUTO_TEST_CASE(a_value_that_is_no_toml_is_a_text) {
   BOOST_TEST((with({"flow.kind=planar_extension"}).flow->kind == vehd::FlowKind::planar_extension));
   BOOST_TEST((with({"flow.kind=\"planar_extension\""}).flow->kind == vehd::FlowKind::planar_extension));
   BOOST_TEST(with({"flow.rate=4 1/s"}, si_scene()).flow->rate == 2.0);
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(is_given_once) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(is_called_in_messages_what_the_file_calls_it) {
+BOOST_AUTO_TEST_CASE(has_in_messages_the_name_that_the_file_uses) {
   const std::string start = "[shape]\nkind = 'ellipsoid'\naxes = [1, 1, 2]\n[numerics]\ndt = 0.1\nend_time = 1\n";
   BOOST_TEST(message_of(start + "degree = 3\n") ==
              "scene.toml:7: \"degree\" in [numerics] is 3; accepted: an integer, 4 ... 64");

@@ -268,7 +268,7 @@ BOOST_AUTO_TEST_CASE(the_effective_scene_fixes_the_shape_of_a_file_that_may_chan
              run.message(fixed));
 }
 
-BOOST_AUTO_TEST_CASE(every_dataset_says_what_its_numbers_are_in_si) {
+BOOST_AUTO_TEST_CASE(every_dataset_has_the_factor_to_si_units) {
   const vehd::UnitsScene units{2.0, 3.0, 5.0, 7.0};
   const StoredRun with(units_text(units) + ellipsoid + electric + numerics), without(ellipsoid + electric + numerics);
   const vehd::Hdf5Reader file(with.path()), plain(without.path());

@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(random_orientations_prefer_none) {
   BOOST_TEST((mean - vehd::Matrix3::Identity() / 3.0).cwiseAbs().maxCoeff() < 0.06);
 }
 
-BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
+BOOST_AUTO_TEST_CASE(suspensions_that_do_not_fit_are_refused) {
   const std::string box = "kind = \"box\"\nsize = [8, 8, 8]\n";
   BOOST_TEST(message_of(with(box + "count = 1000000\n")) ==
              "scene.toml:11: \"count\" in [suspension] is 1000000; accepted: at most 500");

@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(one_of_several_vesicles_may_have_none) {
                                  "[vesicle.membrane]\nundulations = false\n") != "");
 }
 
-BOOST_AUTO_TEST_CASE(undulations_need_a_tension_and_what_sets_their_size) {
+BOOST_AUTO_TEST_CASE(undulations_need_a_tension_and_the_keys_of_their_size) {
   const std::string start = "scene.toml:9: \"undulations\" in [membrane] ";
   BOOST_TEST(problem(on) == start + "needs \"temperature\", \"stretching_modulus\" or both");
   BOOST_TEST(problem(on + "temperature = 0.1\n") == "");

@@ -32,7 +32,7 @@ const std::string kDifferent =
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(take_over_what_they_do_not_say_themselves) {
+BOOST_AUTO_TEST_CASE(inherit_the_keys_that_they_do_not_set) {
   const vehd::Scene scene = parsed(kDifferent);
   BOOST_TEST((vehd::vesicle_names(scene) == std::vector<std::string>{"soft", "stiff"}));
   const vehd::Scene soft = vehd::alone(scene, 0), stiff = vehd::alone(scene, 1);
@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(are_refused_where_they_overlap) {
   BOOST_TEST(message_of(kForAll + at("[0, 0, 0]") + at("[2.01, 0, 0]")).empty());
 }
 
-BOOST_AUTO_TEST_CASE(are_refused_where_they_say_what_they_may_not) {
+BOOST_AUTO_TEST_CASE(are_refused_with_unknown_or_common_keys) {
   BOOST_TEST(message_of(kForAll + "[[vesicle]]\nshap.centre = [0, 0, 0]\n") ==
              "scene.toml:9: unknown key \"shap\" in [[vesicle]]; did you mean \"shape\"?");
   BOOST_TEST(message_of(kForAll + at("[0, 0, 0]") + "[vesicle.fluid]\nviscosity = 2\n") ==

@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(its_place_has_units) {
   BOOST_TEST(std::abs(scene.wall->point[2] + 3.0) < 1e-12);
 }
 
-BOOST_AUTO_TEST_CASE(what_acts_on_nothing_is_said) {
+BOOST_AUTO_TEST_CASE(walls_without_effect_or_normal_are_refused) {
   BOOST_TEST(refuses("[wall]\nflow = \"no-slip\"\n", "missing key \"normal\" in [wall]"));
   BOOST_TEST(refuses("[wall]\nnormal = [0, 0, 0]\nflow = \"no-slip\"\n", "\"normal\" in [wall] is 0, 0, 0"));
   BOOST_TEST(refuses(kFloor, "[wall] has no effect"));

@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(steps_of_a_burst_are_those_of_its_periods_and_both_ends) {
   BOOST_TEST(vehd::fewest_steps(burst, 0.4) == 0.0);
 }
 
-BOOST_AUTO_TEST_CASE(steps_of_what_alternates_and_of_what_does_not) {
+BOOST_AUTO_TEST_CASE(steps_of_alternating_and_other_waveforms) {
   vehd::WaveformScene alternating = waveform(vehd::WaveformKind::ac, 0.0, 0.0, 0.0);
   alternating.frequency = 3.0;
   BOOST_TEST(vehd::fewest_steps(alternating, 2.0) == 6.0 * vehd::fewest_steps_a_period);

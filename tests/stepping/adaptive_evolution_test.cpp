@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(steps_are_the_same_bit_for_bit_however_many_threads_have_no
   }
 }
 
-BOOST_AUTO_TEST_CASE(tolerance_is_what_a_field_driven_vesicle_gets) {
+BOOST_AUTO_TEST_CASE(a_vesicle_in_a_field_is_accurate_to_the_tolerance) {
   constexpr double kEnd = 6.0;
   const Matrix position = prolate(kHighestOrder);
   const VesicleDiagnostics reference = run_to(field_model(), position, 1e-6, kEnd).diagnostics;

@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(no_net_current_crosses_a_membrane_at_rest) {
   BOOST_TEST(current.cwiseAbs().dot(area) > 0.1);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_the_same_everywhere_moves_as_it_does_without_places) {
+BOOST_AUTO_TEST_CASE(a_uniform_membrane_moves_as_it_does_without_places) {
   constexpr int kOrder = 8;
   const Model model = field_model();
   const Matrix position = prolate(kOrder);
@@ -195,7 +195,7 @@ BOOST_AUTO_TEST_CASE(several_vesicles_have_each_their_own) {
   BOOST_TEST((of_neighbour > 1e-5 && of_neighbour < 0.2 * own), of_neighbour << " " << own);
 }
 
-BOOST_AUTO_TEST_CASE(what_differs_rides_with_the_membrane) {
+BOOST_AUTO_TEST_CASE(spatially_varying_properties_move_with_the_membrane) {
   // A shear flow turns the membrane by half a radian.
   constexpr int kOrder = 10;
   const Model model = shear_model();

@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(steps_of_a_tolerance_find_the_same_time) {
   BOOST_TEST(std::abs(d.poration_time / exact - 1.0) < 1e-3, d.poration_time << " " << exact);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_never_met_has_no_time) {
+BOOST_AUTO_TEST_CASE(a_criterion_that_is_never_met_has_no_time) {
   const double capacitance = 0.6, tau = charging_time(capacitance);
   Model model = charging_sphere(capacitance);
   model.vesicles[0].criterion = PorationCriterion{.potential = 1.51 * field * radius};

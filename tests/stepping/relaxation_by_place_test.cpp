@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(steady_charges_do_not_change) {
   BOOST_TEST(found.solution.rate.free_charge.norm() < 1e-4 * found.fields.potential.norm());
 }
 
-BOOST_AUTO_TEST_CASE(what_is_the_same_everywhere_relaxes_as_without_places) {
+BOOST_AUTO_TEST_CASE(a_uniform_membrane_relaxes_as_without_places) {
   constexpr int kOrder = 8;
   Model model = relaxing_model();
   model.mobile = true;

@@ -21,7 +21,7 @@ bool built_for(const std::string& feature) {
 
 BOOST_AUTO_TEST_SUITE(processor)
 
-BOOST_AUTO_TEST_CASE(the_program_knows_what_the_compiler_was_allowed_to_use) {
+BOOST_AUTO_TEST_CASE(the_program_knows_the_instructions_that_the_compiler_could_use) {
 #ifdef __AVX2__
   BOOST_TEST(built_for("avx2"));
 #else

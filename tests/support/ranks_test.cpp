@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(texts_go_to_the_ranks_they_are_for) {
   BOOST_TEST((said == std::vector<std::string>{"00 10 20 ", "01 11 21 ", "02 12 22 "}));
 }
 
-BOOST_AUTO_TEST_CASE(what_one_rank_throws_all_throw) {
+BOOST_AUTO_TEST_CASE(an_exception_of_one_rank_is_thrown_by_all) {
   // The other ranks meanwhile do nothing, make a call, or make a call within another.
   for (const int busy : {0, 1, 2}) {
     const auto said = on_ranks(3, [&](const Ranks& ranks) -> std::string {

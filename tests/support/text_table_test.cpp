@@ -4,7 +4,7 @@
 
 BOOST_AUTO_TEST_SUITE(text_table)
 
-BOOST_AUTO_TEST_CASE(columns_are_aligned_by_what_is_seen) {
+BOOST_AUTO_TEST_CASE(columns_are_aligned_by_visible_characters) {
   // γ̇ is two characters and four bytes in one column.
   BOOST_TEST(vehd::aligned({{"a", "b", "c"}, {"κ_B", "", "d"}, {"γ̇", "long", "e"}, {"x", "y", ""}}, " ") ==
              " a    b     c\n"

@@ -54,7 +54,7 @@ Verdict verdict(const FieldQuestion& asked, double required = 0.02) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(right_numbers_agree_and_errors_are_what_levels_and_orders_differ_by) {
+BOOST_AUTO_TEST_CASE(right_numbers_agree_and_errors_are_differences_of_levels_and_orders) {
   const FieldComparison result = compare(question(), levels(), {0.02});
   BOOST_TEST((result.verdict == Verdict::agree));
   BOOST_TEST(result.difference.l2 == fine_error, boost::test_tools::tolerance(1e-3));
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(right_numbers_agree_and_errors_are_what_levels_and_orders_d
   BOOST_TEST(result.order.value() == 3.0 * std::log(10.0) / std::log(8.0), boost::test_tools::tolerance(1e-3));
 }
 
-BOOST_AUTO_TEST_CASE(wrong_numbers_do_not) {
+BOOST_AUTO_TEST_CASE(wrong_numbers_disagree_beyond_their_errors) {
   for (const double factor : {1.003, 0.997, -1.0, 0.5, 100.0, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
     FieldQuestion wrong = question();
     for (Eigen::MatrixXd* numbers : {&wrong.judged, &wrong.bie, &wrong.bie_high}) *numbers *= factor;
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(neither_order_may_be_random) {
   BOOST_TEST((verdict(random) != Verdict::agree));
 }
 
-BOOST_AUTO_TEST_CASE(errors_above_what_is_required_decide_nothing) {
+BOOST_AUTO_TEST_CASE(errors_above_the_required_one_decide_nothing) {
   BOOST_TEST((verdict(question(), 1e-3) == Verdict::agree));
   BOOST_TEST((verdict(question(), 2e-4) == Verdict::undecided));
   FieldQuestion coarse = question();
@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(error_of_the_linear_solver_is_measured) {
   BOOST_TEST((result.verdict == Verdict::undecided));
 }
 
-BOOST_AUTO_TEST_CASE(background_does_not_hide_what_is_left) {
+BOOST_AUTO_TEST_CASE(background_does_not_hide_the_disturbance) {
   FieldQuestion asked = question();
   const Eigen::MatrixXd background = Eigen::MatrixXd::Constant(1, 50, 1e5);
   LevelSequence shifted = levels();
@@ -274,6 +274,19 @@ BOOST_AUTO_TEST_CASE(slow_convergence_leaves_more_than_the_last_change) {
   BOOST_TEST(with_order(0.1).tail == with_order(1.0).tail, boost::test_tools::tolerance(1e-2));
 }
 
+BOOST_AUTO_TEST_CASE(a_magnified_tolerance_of_the_solvers_decides_nothing) {
+  LevelSequence sequence = levels();
+  sequence.tolerance = 1e-8;
+  FieldQuestion steady = question();
+  steady.judged *= 1.05;
+  BOOST_TEST((compare(steady, sequence, {0.02}).verdict == Verdict::disagree));
+  steady.solver_magnification = 1e7;
+  const FieldComparison result = compare(steady, sequence, {0.02});
+  BOOST_TEST((result.verdict == Verdict::undecided));
+  BOOST_TEST(result.fem_error() > 0.05);
+  BOOST_TEST(result.bie_error() < 1e-3);
+}
+
 // An unresolved field may seem to converge, with changes smaller than its error.
 BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
   const auto with_errors = [](double coarse, double middle, double fine) {
@@ -293,7 +306,7 @@ BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
 
 // The elements give the work of f_b to 1e-11. The difference is then the whole truncation error of degree p, while the
 // estimate comes from the other degree, which has a truncation error too.
-BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_counts_what_the_other_degree_leaves) {
+BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_includes_the_difference_to_the_other_degree) {
   const auto with_errors = [](int degree, double error, int other, double other_error) {
     FieldQuestion asked = question();
     asked.judged = asked.bie = field(1.0 - error);

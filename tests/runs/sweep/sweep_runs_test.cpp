@@ -20,7 +20,7 @@ std::vector<vehd::SweepRun> runs_with(const std::string& scene, const std::strin
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(directories_are_named_by_what_a_scene_says_and_not_how) {
+BOOST_AUTO_TEST_CASE(directories_are_named_by_the_content_of_a_scene_and_not_its_form) {
   const auto runs = runs_with(quick_scene(), "\"numerics.dt\" = {values = [0.25, 0.5]}\n");
   const auto others = runs_with("# The same.\n" + quick_scene("3"), "\"numerics.dt\" = {values = [0.50]}\n");
   BOOST_TEST(runs[0].name.size() == 16u);
@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(many_scenes_have_as_many_names) {
   BOOST_TEST(names.size() == 100000u);
 }
 
-BOOST_AUTO_TEST_CASE(what_the_whole_scene_refuses_is_refused_with_its_reason) {
+BOOST_AUTO_TEST_CASE(values_that_the_whole_scene_refuses_are_refused_with_its_reason) {
   // Each value is valid for its key; the scene as a whole lacks a frequency if the waveform is "ac".
   const auto runs = runs_with(quick_scene(),
                               "\"electric.initial_Vm\" = {values = [\"zero\", \"steady\"]}\n"

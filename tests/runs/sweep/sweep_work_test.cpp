@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(finished_runs_are_not_read_again) {
   BOOST_TEST(counted([&] { many.work(); }) == counted([&] { few.work(); }));
 }
 
-BOOST_AUTO_TEST_CASE(a_worker_adds_a_result_to_what_a_run_writes_alone) {
+BOOST_AUTO_TEST_CASE(a_worker_writes_one_result_beyond_the_files_of_a_run) {
   const auto added_by_worker = [](int n) {
     const CountedSweep sweep(n);
     const long alone = counted([&] {

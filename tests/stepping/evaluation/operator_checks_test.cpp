@@ -41,7 +41,7 @@ Model drawing_model() {
 
 BOOST_AUTO_TEST_SUITE(operator_checks)
 
-BOOST_AUTO_TEST_CASE(both_layers_are_checked_against_what_they_must_give) {
+BOOST_AUTO_TEST_CASE(both_layers_are_checked_against_exact_values) {
   const Matrix shape = asymmetric_shape(12);
   const double exactness = 1e-6;
   BOOST_TEST(check_of(12, shape, 1.15, kStokesLayer).error < exactness);

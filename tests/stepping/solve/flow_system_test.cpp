@@ -227,7 +227,7 @@ BOOST_AUTO_TEST_CASE(subspaces_of_another_degree_are_dropped) {
   BOOST_TEST(StepSystem(model, finer, kDt, system.found()).kept().count() == 0);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_recycled_is_the_response_of_the_membrane) {
+BOOST_AUTO_TEST_CASE(recycled_responses_are_those_of_the_membrane) {
   const Model model = stiff_model();
   const Space space(kOrder);
   const Membrane membrane = make_membrane(space, asymmetric_shape(kOrder), kStokesLayer);

@@ -12,7 +12,7 @@ using namespace vehd::testing;
 
 BOOST_AUTO_TEST_SUITE(tension_inverse)
 
-BOOST_AUTO_TEST_CASE(takes_what_a_tension_does_back_to_it) {
+BOOST_AUTO_TEST_CASE(takes_the_response_of_a_tension_back_to_it) {
   const int order = 12;
   const Space space(order);
   const TensionGrid grid(order);

@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(there_is_no_estimate_without_high_degrees) {
   BOOST_TEST(visible_share(share_grid(), fields).potential == 1.0);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_not_seen_needs_no_degree) {
+BOOST_AUTO_TEST_CASE(components_that_are_not_seen_need_no_degree) {
   State state = at_rest(shape_33(kSharedOrder));
   state.vesicles[0].reference_area = 13.0;
   const double all = Resolution(Model{}, state.vesicles[0]).remainder();

@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(steps_of_tank_treading_come_to_take_less_than_half_the_iter
   BOOST_TEST(2 * steps.median_from(20) < steps.iterations.front());
 }
 
-BOOST_AUTO_TEST_CASE(what_was_learned_changes_the_step_by_less_than_its_tolerance) {
+BOOST_AUTO_TEST_CASE(recycling_changes_the_step_by_less_than_its_tolerance) {
   const Model model = shear_model();
   const Matrix position = ellipsoid(10, {2.0, 1.0, 0.9});
   const State learned = steps_of(model, position, 0.1, 10).end;
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(a_repeated_step_takes_fewer_iterations) {
   BOOST_TEST(max_difference(again.state.vesicles[0].position, unaided.state.vesicles[0].position) < 1e-7);
 }
 
-BOOST_AUTO_TEST_CASE(what_does_not_pay_is_left_aside_for_a_while) {
+BOOST_AUTO_TEST_CASE(recycling_that_does_not_pay_is_suspended) {
   const auto known = recycled_scalars({0}, {Matrix::Ones(1, 1), Matrix::Ones(1, 1)});
   RecycledSubspaces memory = after_step({}, known, 20);
   BOOST_TEST((memory.flow == known && memory.unaided_iterations == 20));
@@ -148,7 +148,7 @@ BOOST_AUTO_TEST_CASE(resized_state_keeps_no_subspace_of_the_former_degree) {
 }
 
 // Higher and lower degrees and a smaller symmetry, also if the outdated subspace is left in the state.
-BOOST_AUTO_TEST_CASE(what_was_learned_at_another_degree_changes_no_field_and_no_step) {
+BOOST_AUTO_TEST_CASE(samples_of_another_degree_change_no_field_and_no_step) {
   const Model model = shear_model();
   const Matrix position = ellipsoid(10, {2.0, 1.0, 0.9});
   const State learned = steps_of(model, position, 0.1, 4).end;

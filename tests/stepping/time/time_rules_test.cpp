@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(whole_step_is_integrated_to_the_order_of_radau) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(as_many_sweeps_as_nodes_settle_what_is_infinitely_stiff) {
+BOOST_AUTO_TEST_CASE(as_many_sweeps_as_nodes_solve_an_infinitely_stiff_equation) {
   for (const int order : {3, 4, 5}) {
     const TimeRule rule = time_rule(order);
     const Index n_nodes = static_cast<Index>(rule.nodes.size());
