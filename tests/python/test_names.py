@@ -60,6 +60,10 @@ class Names(unittest.TestCase):
         for name in vehd.__all__:
             self.assertTrue(re.search(rf"\b{name}\b", page), name)
 
+    def test_every_name_is_on_the_page_of_the_site(self):
+        page = (SOURCE / "docs/site/python_api.rst").read_text()
+        self.assertEqual(sorted(re.findall(r"^\.\. \S+:: vehd\.(\w+)", page, re.M)), sorted(vehd.__all__))
+
 
 class OtherLibraries(unittest.TestCase):
     def test_no_name_is_used_that_newer_releases_have_removed(self):
