@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "bie/scene/dimensionless_groups.hpp"
+#include "bie/scene/output_units.hpp"
 #include "bie/scene/schema.hpp"
 #include "tests/scene/scene_text.hpp"
 
@@ -44,6 +45,16 @@ BOOST_AUTO_TEST_CASE(quantities_are_parsed_however_they_are_spelled) {
   BOOST_TEST(!vehd::parse_quantity(""));
   BOOST_TEST(!vehd::parse_quantity("1e999 m"));
   BOOST_TEST(!vehd::parse_quantity("nan m"));
+}
+
+BOOST_AUTO_TEST_CASE(tensions_can_be_typed_as_they_are_printed) {
+  const vehd::Dimension& dimension = *vehd::find_dimension("force/length");
+  for (const double tension : {2.5, 2.5e-3, 2.5e-6, 2.5e-9}) {
+    const std::string text = vehd::si_number(tension, dimension.name);
+    const auto quantity = vehd::parse_quantity(text);
+    BOOST_TEST_REQUIRE((quantity && dimension.find(quantity->unit) != nullptr), text);
+    BOOST_TEST(quantity->in_si(*dimension.find(quantity->unit)) == tension, boost::test_tools::tolerance(1e-14));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(decimal_values_become_the_nearest_number_in_si) {
@@ -196,42 +207,26 @@ BOOST_AUTO_TEST_CASE(numbers_convert_by_the_ratio_of_their_scales) {
 
 // SI base-unit values of prefixes and composed units, written out by hand.
 BOOST_AUTO_TEST_CASE(every_unit_is_what_its_name_says) {
-  const std::map<std::string, double> sizes = {{"m", 1},          {"mm", 1e-3},
-                                               {"um", 1e-6},      {"nm", 1e-9},
-                                               {"m^2", 1},        {"mm^2", 1e-6},
-                                               {"um^2", 1e-12},   {"1/m", 1},
-                                               {"1/mm", 1e3},     {"1/um", 1e6},
-                                               {"s", 1},          {"ms", 1e-3},
-                                               {"us", 1e-6},      {"ns", 1e-9},
-                                               {"1/s", 1},        {"1/ms", 1e3},
-                                               {"Hz", 1},         {"kHz", 1e3},
-                                               {"MHz", 1e6},      {"m/s", 1},
-                                               {"mm/s", 1e-3},    {"um/s", 1e-6},
-                                               {"m/s^2", 1},      {"kg/m^3", 1},
-                                               {"g/cm^3", 1e3},   {"Pa s", 1},
-                                               {"mPa s", 1e-3},   {"cP", 1e-3},
-                                               {"J", 1},          {"aJ", 1e-18},
-                                               {"zJ", 1e-21},     {"V", 1},
-                                               {"mV", 1e-3},      {"V/m", 1},
-                                               {"kV/m", 1e3},     {"V/cm", 1e2},
-                                               {"kV/cm", 1e5},    {"S/m", 1},
-                                               {"mS/m", 1e-3},    {"mS/cm", 1e-1},
-                                               {"uS/cm", 1e-4},   {"F/m", 1},
-                                               {"pF/m", 1e-12},   {"eps0", 8.8541878188e-12},
-                                               {"F/m^2", 1},      {"mF/m^2", 1e-3},
-                                               {"uF/cm^2", 1e-2}, {"S/m^2", 1},
-                                               {"S/cm^2", 1e4},   {"mS/cm^2", 1e1},
-                                               {"K", 1},          {"kBT", 1.380649e-23 * 300.0},
-                                               {"m^3", 1},        {"Pa", 1},
-                                               {"N/m", 1},        {"mN/m", 1e-3},
-                                               {"J/m^2", 1},      {"mJ/m^2", 1e-3},
-                                               {"uJ/m^2", 1e-6},  {"C m", 1},
-                                               {"C/m^2", 1},      {"W", 1},
-                                               {"1/m^2", 1},      {"1/um^2", 1e12},
-                                               {"1/(m^2 s)", 1},  {"1/(um^2 us)", 1e18},
-                                               {"A/m^2", 1},      {"mA/m^2", 1e-3},
-                                               {"mA/cm^2", 1e1},  {"uA/cm^2", 1e-2},
-                                               {"nA/cm^2", 1e-5}, {"N", 1}};
+  const std::map<std::string, double> sizes = {
+      {"m", 1},          {"mm", 1e-3},     {"um", 1e-6},      {"nm", 1e-9},
+      {"m^2", 1},        {"mm^2", 1e-6},   {"um^2", 1e-12},   {"1/m", 1},
+      {"1/mm", 1e3},     {"1/um", 1e6},    {"s", 1},          {"ms", 1e-3},
+      {"us", 1e-6},      {"ns", 1e-9},     {"1/s", 1},        {"1/ms", 1e3},
+      {"Hz", 1},         {"kHz", 1e3},     {"MHz", 1e6},      {"m/s", 1},
+      {"mm/s", 1e-3},    {"um/s", 1e-6},   {"m/s^2", 1},      {"kg/m^3", 1},
+      {"g/cm^3", 1e3},   {"Pa s", 1},      {"mPa s", 1e-3},   {"cP", 1e-3},
+      {"J", 1},          {"aJ", 1e-18},    {"zJ", 1e-21},     {"V", 1},
+      {"mV", 1e-3},      {"V/m", 1},       {"kV/m", 1e3},     {"V/cm", 1e2},
+      {"kV/cm", 1e5},    {"S/m", 1},       {"mS/m", 1e-3},    {"mS/cm", 1e-1},
+      {"uS/cm", 1e-4},   {"F/m", 1},       {"pF/m", 1e-12},   {"eps0", 8.8541878188e-12},
+      {"F/m^2", 1},      {"mF/m^2", 1e-3}, {"uF/cm^2", 1e-2}, {"S/m^2", 1},
+      {"S/cm^2", 1e4},   {"mS/cm^2", 1e1}, {"K", 1},          {"kBT", 1.380649e-23 * 300.0},
+      {"m^3", 1},        {"Pa", 1},        {"N/m", 1},        {"mN/m", 1e-3},
+      {"uN/m", 1e-6},    {"nN/m", 1e-9},   {"J/m^2", 1},      {"mJ/m^2", 1e-3},
+      {"uJ/m^2", 1e-6},  {"C m", 1},       {"C/m^2", 1},      {"W", 1},
+      {"1/m^2", 1},      {"1/um^2", 1e12}, {"1/(m^2 s)", 1},  {"1/(um^2 us)", 1e18},
+      {"A/m^2", 1},      {"mA/m^2", 1e-3}, {"mA/cm^2", 1e1},  {"uA/cm^2", 1e-2},
+      {"nA/cm^2", 1e-5}, {"N", 1}};
   for (const vehd::Dimension& dimension : vehd::dimensions()) {
     for (const vehd::Unit& unit : dimension.units) {
       const auto size = sizes.find(std::string(unit.symbol));
