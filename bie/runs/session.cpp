@@ -76,8 +76,10 @@ std::vector<SceneChange> RunSession::changes() const {
 
 nlohmann::json RunSession::summarise(const RunOutcome& outcome) const {
   const HistoryTable history(paths_.history());
+  const bool several = history_kind(scene_).rows == HistoryKind::of_all;
+  const HistoryTable of_each = several ? HistoryTable(paths_.vesicles()) : history;
   const Checkpoint checkpoint = read_checkpoint(paths_.checkpoint());
-  nlohmann::json summary = summary_of(history, scene_, checkpoint, outcome);
+  nlohmann::json summary = summary_of(history, of_each, scene_, checkpoint, outcome);
   summary["symmetry"] = imposed_symmetry(scene_, checkpoint.origin);
   if (scene_.numerics.error_bars) {
     summary["error_bars"] = worst_error(history, HistoryTable(paths_.history_error()));

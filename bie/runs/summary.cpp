@@ -9,8 +9,6 @@
 
 #include "bie/files/versions.hpp"
 #include "bie/runs/verdict.hpp"
-#include "bie/scene/shapes/initial_shape.hpp"
-#include "bie/scene/shapes/placement.hpp"
 #include "bie/scene/vesicles.hpp"
 #include "bie/support/memory.hpp"
 
@@ -49,32 +47,34 @@ nlohmann::json poration_of(const HistoryTable& history) {
 
 double last(const std::vector<double>& values) { return values.empty() ? 0.0 : values.back(); }
 
-/// In units of the scene, whatever the units of the history.
-ReachedValues reached_values(const HistoryTable& history, const Scene& scene) {
-  const OutputUnits units = history.units(scene.units);
-  const auto most = [&](const char* column, const char* dimension) {
-    double largest = 0.0;
-    for (const double value : history.column(column)) largest = std::max(largest, value);
-    return largest / units.of(dimension).factor;
+/// Values of each vesicle in units of the scene, whatever the units of the table.
+/// @param rows  of each vesicle
+std::vector<ReachedValues> reached_values(const HistoryTable& rows, const Scene& scene) {
+  const OutputUnits units = rows.units(scene.units);
+  const auto column = [&](const char* name, const char* dimension) {
+    std::vector<double> values = rows.column(name);
+    for (double& value : values) value /= units.of(dimension).factor;
+    return values;
   };
-  double area = 0.0;
-  for (const Scene& one : each_alone(scene)) area += size_of(initial_position(one)).area;
-  const auto& times = history.column("time");
-  const double unit = units.of("time").factor;
-  double least_integral = 0.0;
-  for (const double value : history.column("tension_integral")) least_integral = std::min(least_integral, value);
-  return {most("Vm_max", "potential"),
-          most("tension_max", "force/length"),
-          most("tension_integral", "energy") / area,
-          least_integral / units.of("energy").factor / area,
-          times.empty() ? 0.0 : times.front() / unit,
-          last(times) / unit};
+  const auto time = column("time", "time"), potential = column("Vm_max", "potential"), area = column("area", "area"),
+             tension = column("tension_max", "force/length"), integral = column("tension_integral", "energy");
+  std::vector<ReachedValues> reached(std::max<std::size_t>(1, scene.vesicles.size()));
+  for (std::size_t row = 0; row < rows.n_rows(); ++row) {
+    ReachedValues& of = reached.at(rows.has("vesicle") ? static_cast<std::size_t>(rows.column("vesicle")[row]) : 0);
+    of.potential = std::max(of.potential, potential[row]);
+    of.tension = std::max(of.tension, tension[row]);
+    of.mean_tension = std::max(of.mean_tension, integral[row] / area[row]);
+    of.least_mean_tension = std::min(of.least_mean_tension, integral[row] / area[row]);
+    of.start_time = time.front();
+    of.end_time = time[row];
+  }
+  return reached;
 }
 
 }  // namespace
 
-nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const Checkpoint& checkpoint,
-                          const RunOutcome& outcome) {
+nlohmann::json summary_of(const HistoryTable& history, const HistoryTable& of_each, const Scene& scene,
+                          const Checkpoint& checkpoint, const RunOutcome& outcome) {
   const RunTotals& totals = checkpoint.totals;
   const auto& rejected = history.column("rejected");
   const std::int64_t steps = history.n_steps();
@@ -82,7 +82,7 @@ nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const
   json["completed"] = outcome.completed;
   json["verdict"] = verdict_of(history, trust_demands(scene), outcome.reason);
   if (!outcome.completed) json["reason"] = outcome.reason;
-  json["warnings"] = json_of(model_warnings(scene, reached_values(history, scene)));
+  json["warnings"] = json_of(model_warnings(scene, reached_values(of_each, scene)));
   json["changes"] = changes_in(history.units(scene.units).of("time"), checkpoint.changes);
   if (checkpoint.origin) {
     const State& state = checkpoint.origin->state;

@@ -9,9 +9,10 @@
 namespace vehd {
 
 /// Content of summary.json.
+/// @param of_each  the table with a row for each vesicle; `history` if there is one vesicle
 /// @return  the stable keys of the command `run`, and others
-nlohmann::json summary_of(const HistoryTable& history, const Scene& scene, const Checkpoint& checkpoint,
-                          const RunOutcome& outcome);
+nlohmann::json summary_of(const HistoryTable& history, const HistoryTable& of_each, const Scene& scene,
+                          const Checkpoint& checkpoint, const RunOutcome& outcome);
 
 /// An array of objects {name, value, limit, text}.
 nlohmann::json json_of(const std::vector<ModelWarning>& warnings);

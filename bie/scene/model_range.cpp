@@ -279,11 +279,12 @@ class ModelRangeChecks {
 
 }  // namespace
 
-std::vector<ModelWarning> model_warnings(const Scene& scene, const std::optional<ReachedValues>& reached) {
+std::vector<ModelWarning> model_warnings(const Scene& scene, const std::vector<ReachedValues>& reached) {
   std::vector<ModelWarning> all;
-  for (const Scene& one : each_alone(scene)) {
-    ModelRangeChecks checks(one);
-    for (ModelWarning& warning : checks.warnings_at(reached ? *reached : checks.expected())) {
+  const std::vector<Scene> each = each_alone(scene);
+  for (std::size_t a = 0; a < each.size(); ++a) {
+    ModelRangeChecks checks(each[a]);
+    for (ModelWarning& warning : checks.warnings_at(reached.empty() ? checks.expected() : reached.at(a))) {
       const auto known = std::ranges::find(all, warning.name, &ModelWarning::name);
       if (known == all.end()) {
         all.push_back(std::move(warning));

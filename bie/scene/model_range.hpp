@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,7 @@ struct ModelWarning {
   std::string text;
 };
 
-/// What a run reached, in units of the scene.
+/// What one vesicle reached in a run, in units of the scene.
 struct ReachedValues {
   double potential = 0.0;                   ///< largest |V_m|
   double tension = 0.0;                     ///< largest λ
@@ -28,8 +27,8 @@ struct ReachedValues {
 
 /// All quantities beyond their limits, each once, for the vesicle that exceeds the limit most. Limits in SI units are
 /// checked only if the scene has [units].
-/// @param reached  values of the run; absent: estimated from a sphere of the same area
+/// @param reached  values of each vesicle in the run; empty: estimated from spheres of the same area
 /// @throws InputError if the shape file cannot be used
-std::vector<ModelWarning> model_warnings(const Scene& scene, const std::optional<ReachedValues>& reached = {});
+std::vector<ModelWarning> model_warnings(const Scene& scene, const std::vector<ReachedValues>& reached = {});
 
 }  // namespace vehd

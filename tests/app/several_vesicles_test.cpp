@@ -119,6 +119,21 @@ BOOST_AUTO_TEST_CASE(files_describe_every_vesicle) {
   BOOST_TEST(plot.exit_code == 0, plot.errors);
 }
 
+// The mean over both would be half as large.
+BOOST_AUTO_TEST_CASE(a_vesicle_that_buckles_beside_another_is_named) {
+  const FinishedRun run(
+      "[units]\nlength = \"10 um\"\ntime = \"1 s\"\n"
+      "[shape]\nkind = \"prolate\"\nreduced_volume = 0.95\narea = \"1256 um^2\"\n"
+      "[membrane]\nbending_modulus = \"2e-19 J\"\nundulations = true\ntemperature = \"298 K\"\n"
+      "[fluid]\nviscosity = \"1 mPa s\"\n[numerics]\ndegree = 8\ndt = \"0.1 ms\"\nend_time = \"0.1 ms\"\n"
+      "[[vesicle]]\n[[vesicle]]\nshape.centre = [4, 0, 0]\nmembrane.rest_area = \"1270 um^2\"\n");
+  const auto warnings = json_of(run.output + "/summary.json").at("warnings");
+  const auto buckling = std::ranges::find(warnings, "buckling", [](const auto& one) { return one.at("name"); });
+  BOOST_TEST_REQUIRE((buckling != warnings.end()), warnings.dump());
+  BOOST_TEST(buckling->at("value").get<double>() > 0.99);
+  BOOST_TEST(buckling->at("value").get<double>() <= 1.0);
+}
+
 BOOST_AUTO_TEST_CASE(a_suspension_runs_as_what_was_placed) {
   const std::string scene =
       "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"

@@ -32,7 +32,7 @@ std::string replaced(std::string text, const std::string& old, const std::string
 
 /// Warnings by name.
 std::map<std::string, vehd::ModelWarning> warnings_of(const std::string& text,
-                                                      const std::optional<ReachedValues>& reached = {}) {
+                                                      const std::vector<ReachedValues>& reached = {}) {
   std::map<std::string, vehd::ModelWarning> result;
   for (const vehd::ModelWarning& warning : vehd::model_warnings(parsed(text), reached)) {
     result.emplace(warning.name, warning);
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(poration_follows_from_the_field_unless_the_scene_has_it) {
   const std::string criterion = "[poration]\nmodel = \"criterion\"\nthreshold_Vm = \"1 V\"\n";
   BOOST_TEST(!warnings_of(strong + criterion).contains("poration"));
   // The values reached in the run take precedence once they are available.
-  BOOST_TEST(!warnings_of(strong, ReachedValues{}).contains("poration"));
+  BOOST_TEST(!warnings_of(strong, {ReachedValues{}}).contains("poration"));
 }
 
 BOOST_AUTO_TEST_CASE(an_alternating_field_charges_less) {
@@ -84,11 +84,11 @@ BOOST_AUTO_TEST_CASE(an_alternating_field_charges_less) {
 BOOST_AUTO_TEST_CASE(lysis_is_judged_by_the_tension_of_the_run) {
   const vehd::Scene scene = parsed(quiet_scene());
   const ReachedValues reached{0.0, scaled(scene, 6e-3, 1, -1, 1), 0.0};
-  const auto found = warnings_of(quiet_scene(), reached);
+  const auto found = warnings_of(quiet_scene(), {reached});
   BOOST_TEST(found.size() == 1U);
   BOOST_TEST(found.at("lysis").value == 6e-3, boost::test_tools::tolerance(rounding));
   BOOST_TEST(found.at("lysis").limit == 5e-3);
-  BOOST_TEST(!warnings_of(quiet_scene("[poration]\nmodel = \"criterion\"\nlysis_tension = \"8 mN/m\"\n"), reached)
+  BOOST_TEST(!warnings_of(quiet_scene("[poration]\nmodel = \"criterion\"\nlysis_tension = \"8 mN/m\"\n"), {reached})
                   .contains("lysis"));
 }
 
@@ -167,7 +167,7 @@ BOOST_AUTO_TEST_CASE(heating_counts_the_times_that_a_run_has_reached) {
   const std::string hours = replaced(quiet_scene(), "\"1 ms\"", "\"3600 s\"");
   const double time_unit = *parsed(hours).units->time;
   const auto heating = [&](double start, double end) {
-    const auto found = warnings_of(hours, ReachedValues{0.0, 0.0, 0.0, 0.0, start / time_unit, end / time_unit});
+    const auto found = warnings_of(hours, {ReachedValues{0.0, 0.0, 0.0, 0.0, start / time_unit, end / time_unit}});
     return found.contains("heating") ? found.at("heating").value * 4.18e6 / 2e7 : 0.0;
   };
   BOOST_TEST(heating(0.0, 1.0) == 1.0, boost::test_tools::tolerance(1e-9));
@@ -204,11 +204,11 @@ BOOST_AUTO_TEST_CASE(constant_area_is_a_limit_where_undulations_would_give_some)
   const double strain =
       1.380649e-23 * 298 / (8 * std::numbers::pi * rigidity) * std::log1p(0.1 * tension * area / rigidity);
   const double excess = 4 * std::numbers::pi * (std::pow(0.99, -2.0 / 3.0) - 1);
-  const auto found = warnings_of(off, ReachedValues{0.0, 0.0, scaled(scene, tension, 1, -1, 1)});
+  const auto found = warnings_of(off, {ReachedValues{0.0, 0.0, scaled(scene, tension, 1, -1, 1)}});
   BOOST_TEST(found.at("undulations").value == strain * (4 * std::numbers::pi + excess),
              boost::test_tools::tolerance(1e-6));
   BOOST_TEST(found.at("undulations").limit == 0.1 * excess, boost::test_tools::tolerance(1e-6));
-  BOOST_TEST(!warnings_of(off, ReachedValues{0.0, 0.0, -1.0}).contains("undulations"));
+  BOOST_TEST(!warnings_of(off, {ReachedValues{0.0, 0.0, -1.0}}).contains("undulations"));
   // The field by itself is expected to cause such a tension.
   BOOST_TEST(warnings_of(off).contains("undulations"));
   BOOST_TEST(!warnings_of(replaced(off, "reduced_volume = 0.99", "reduced_volume = 0.6")).contains("undulations"));
@@ -245,6 +245,11 @@ BOOST_AUTO_TEST_CASE(of_several_vesicles_the_farthest_beyond_counts) {
   const auto found = warnings_of(
       text + "[[vesicle]]\n[[vesicle]]\n[vesicle.shape]\narea = \"5026.548245743669 um^2\"\ncentre = [5, 0, 0]\n");
   BOOST_TEST(found.at("poration").value == 1.8, boost::test_tools::tolerance(1e-6));
+  const std::string pair = quiet_scene("[[vesicle]]\n[[vesicle]]\nshape.centre = [5, 0, 0]\n");
+  const double tension = scaled(parsed(pair), 9e-3, 1, -1, 1);
+  BOOST_TEST(!warnings_of(pair, {{}, {}}).contains("lysis"));
+  BOOST_TEST(warnings_of(pair, {{}, {.tension = tension}}).at("lysis").value == 9e-3,
+             boost::test_tools::tolerance(rounding));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
