@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kRigidity = 1.0;  // κ_c; the sphere of the same volume has radius 1
 
+constexpr double kThermalEnergy = 0.0411434;  // k_BT at 298 K over 1e-19 J
+
 /// r ∝ 1 + s P₂(cos θ), with the volume of the unit sphere.
 Matrix nearly_spherical(int order, double s) {
   const SphereTransform transform(order, make_grid(3 * order));
@@ -36,6 +38,9 @@ double prolate_amplitude(const VesicleDiagnostics& d) {
   return std::sqrt(5.0 * excess_area(d) / (8.0 * std::numbers::pi));
 }
 
+/// A from Δ = 8πs₂²/5.
+double nearly_spherical_area(double s) { return 4.0 * std::numbers::pi * (1.0 + 0.4 * s * s); }
+
 /// A lipid membrane that has the area of this shape under this tension.
 Model undulating(const Matrix& position, double tension) {
   Model model = relaxation_model(2.0 * kRigidity);
@@ -45,13 +50,29 @@ Model undulating(const Matrix& position, double tension) {
   return model;
 }
 
-/// Adds a constant field that charges the membrane at once; the stress that deforms it is ¾ εE² P₂.
-Model in_field(Model model, double stress) {
-  set_electric(model, {{0.0, 0.0, std::sqrt(stress / 0.75)}, 1.0, 1.0, 1.0}, {1e-2, 0.0});
+/// The vesicle of docs/experiments/undulations.md; units 10 µm, 10 s, 1e-19 J and 1 V/m.
+Model laboratory_model(double excess_area, double thermal_energy) {
+  Model model = relaxation_model(2.0 * kRigidity);
+  model.vesicles[0].undulations =
+      Undulations{thermal_energy, kRigidity, 2.4e8, 4.0 * std::numbers::pi + excess_area, 0.0};
   return model;
 }
 
-VesicleDiagnostics at_end(const Model& model, const Matrix& position, double end_time, double tolerance) {
+/// Adds the averaged field of that page.
+Model in_field(Model model, double field) {
+  set_electric(model, {{0.0, 0.0, field}, 300.0, 100.0, 7.08335e-6}, {1e-3, 0.0});
+  model.electric->displacement_current = true;
+  model.electric->averaged_frequency = 1e4;
+  return model;
+}
+
+struct Followed {
+  std::vector<VesicleDiagnostics> diagnostics;  ///< at each of the times
+  Matrix position;                              ///< at the last of them
+};
+
+Followed follow(const Model& model, const Matrix& position, const std::vector<double>& times, double tolerance) {
+  const double end_time = times.back();
   EvolutionSetup setup;
   setup.model = model;
   setup.settings.order = order_of(position.rows());
@@ -61,8 +82,17 @@ VesicleDiagnostics at_end(const Model& model, const Matrix& position, double end
   Instruments instruments;
   Evolution evolution(setup, {StartMembrane{position}}, instruments);
   evolution.evaluate_start();
-  while (evolution.state().time < end_time) evolution.step({{}, end_time});
-  return evolution.evaluation().diagnostics.vesicles[0];
+  Followed followed;
+  for (const double time : times) {
+    while (evolution.state().time < time) evolution.step({{}, time});
+    followed.diagnostics.push_back(evolution.evaluation().diagnostics.vesicles[0]);
+  }
+  followed.position = evolution.state().vesicles[0].position;
+  return followed;
+}
+
+VesicleDiagnostics at_end(const Model& model, const Matrix& position, double end_time, double tolerance) {
+  return follow(model, position, {end_time}, tolerance).diagnostics[0];
 }
 
 /// s₂ that satisfies 4(6 + Σ) κ_c s₂ = stress and 1 + Δ/4π = A_0 (1 + α(Σ κ_c))/4π.
@@ -72,59 +102,110 @@ double stationary_amplitude(const Undulations& undulations, double stress) {
   for (int i = 0; i < 100; ++i) {
     const double s = 0.5 * (low + high);
     const double tension = (stress / (4.0 * s) - 6.0 * kRigidity);
-    const double area = 4.0 * std::numbers::pi + 8.0 * std::numbers::pi * s * s / 5.0;
-    (tension <= law.least_tension() || area > law.area(tension) ? high : low) = s;
+    (tension <= law.least_tension() || nearly_spherical_area(s) > law.area(tension) ? high : low) = s;
   }
   return low;
+}
+
+/// s₂ at these times from
+///   ds/dt = −24/((32 + 23λ)μa³) [6κ_c (1 − bs) + σa² (1 − cs)] s,
+///   b = (1040 + 455λ)/(21(32 + 23λ)),  c = (848 + 317λ)/(21(32 + 23λ)),
+/// σ from the area, by classical Runge–Kutta steps.
+/// Source: second-order perturbation in s: Lamb's solutions inside and outside, with the balance of stresses, ∇_γ·u = e
+/// and the motion of the membrane expanded about the sphere; s is that of the excess area
+std::vector<double> relaxed_amplitudes(const AreaLaw& law, double viscosity_ratio, double s,
+                                       const std::vector<double>& times) {
+  const double sum = 32.0 + 23.0 * viscosity_ratio;
+  const double b = (1040.0 + 455.0 * viscosity_ratio) / (21.0 * sum);
+  const double c = (848.0 + 317.0 * viscosity_ratio) / (21.0 * sum);
+  const auto rate = [&](double x) {
+    const double tension = law.tension(nearly_spherical_area(x));
+    return -24.0 / sum * (6.0 * kRigidity * (1.0 - b * x) + tension * (1.0 - c * x)) * x;
+  };
+  constexpr int n = 2000;
+  std::vector<double> amplitudes;
+  double last = 0.0;
+  for (const double time : times) {
+    const double dt = (time - last) / n;
+    for (int i = 0; i < n; ++i) {
+      const double k1 = rate(s), k2 = rate(s + 0.5 * dt * k1), k3 = rate(s + 0.5 * dt * k2), k4 = rate(s + dt * k3);
+      s += dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+    }
+    amplitudes.push_back(s);
+    last = time;
+  }
+  return amplitudes;
+}
+
+/// Largest error of the theory over the times, relative to the way that s₂ has gone.
+double error_of_way(const Model& model, const Matrix& position, const std::vector<double>& times, double tolerance) {
+  const std::vector<VesicleDiagnostics> found = follow(model, position, times, tolerance).diagnostics;
+  const double start = prolate_amplitude(at_end(model, position, 0.0, tolerance));
+  const std::vector<double> expected =
+      relaxed_amplitudes(AreaLaw(*model.vesicles[0].undulations), model.vesicles[0].viscosity_ratio, start, times);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double way = start - prolate_amplitude(found[i]);
+    largest = std::max(largest, std::abs((start - expected[i]) / way - 1.0));
+  }
+  return largest;
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(undulations)
 
-// The theory neglects terms of second order in s.
+// The theory neglects terms of relative order s.
 BOOST_AUTO_TEST_CASE(stationary_shape_in_a_field_is_that_of_the_quasi_spherical_theory) {
-  const Matrix position = nearly_spherical(8, 0.05);
-  for (const double stress : {0.3, 3.0, 30.0}) {
-    const Model model = in_field(undulating(position, 0.0), stress);
-    const double expected = stationary_amplitude(*model.vesicles[0].undulations, stress);
-    const double found = prolate_amplitude(at_end(model, position, 40.0, 1e-5));
-    BOOST_TEST(std::abs(found / expected - 1.0) < std::max(0.02, 0.5 * expected),
-               stress << ": " << found << ", theory " << expected);
-  }
-}
-
-/// s₂ after a time from ds₂/dt = −(24/55)(6κ_c + σ) s₂, σ from the area, by classical Runge–Kutta steps.
-double relaxed_amplitude(const AreaLaw& law, double s, double time) {
-  const auto rate = [&](double amplitude) {
-    const double tension = law.tension(4.0 * std::numbers::pi + 8.0 * std::numbers::pi * amplitude * amplitude / 5.0);
-    return -24.0 / 55.0 * (6.0 * kRigidity + tension) * amplitude;
+  constexpr double kDrive = 1.91188e-5;  // Q
+  const auto error = [&](double excess_area, double thermal_energy, double field) {
+    const Model model = in_field(laboratory_model(excess_area, thermal_energy), field);
+    const double expected = stationary_amplitude(*model.vesicles[0].undulations, field * field * kDrive / 6.0);
+    const double found = prolate_amplitude(at_end(model, nearly_spherical(12, expected), 20.0, 1e-5));
+    return std::abs(found / expected - 1.0);
   };
-  constexpr int n = 4000;
-  const double dt = time / n;
-  for (int i = 0; i < n; ++i) {
-    const double k1 = rate(s), k2 = rate(s + 0.5 * dt * k1), k3 = rate(s + 0.5 * dt * k2), k4 = rate(s + dt * k3);
-    s += dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  for (const double excess_area : {0.01, 0.05}) {
+    for (const double field : {1e2, 1e3, 1e4, 1e5}) {
+      const double found = error(excess_area, kThermalEnergy, field);
+      BOOST_TEST(found < 0.006, excess_area << ", " << field << " V/m: " << found);
+    }
   }
-  return s;
+  // The error tends to zero with s₂, which at a given field needs less thermal energy and less excess area.
+  const double large = error(0.01 / 4.0, kThermalEnergy / 4.0, 1e3);
+  const double small = error(0.01 / 16.0, kThermalEnergy / 16.0, 1e3);
+  const double smallest = error(0.01 / 64.0, kThermalEnergy / 64.0, 1e3);
+  BOOST_TEST(small < 0.6 * large, large << " " << small);
+  BOOST_TEST(smallest < 0.6 * small, small << " " << smallest);
 }
 
-// At first tension relaxes the shape, then bending. The relative error of the theory in the change of s₂ is O(s).
-BOOST_AUTO_TEST_CASE(relaxation_without_a_field_tends_to_the_quasi_spherical_theory) {
-  for (const double time : {1e-4, 1e-3, 1e-2, 5e-2}) {
+// At first tension relaxes the shape, then bending. The relative error of the theory in the change of s₂ is O(s²).
+BOOST_AUTO_TEST_CASE(relaxation_without_a_field_is_that_of_the_theory_of_second_order) {
+  for (const double viscosity_ratio : {1.0, 5.0}) {
     std::vector<double> errors;
     for (const double s : {0.1, 0.05, 0.025}) {
-      const Matrix position = nearly_spherical(8, s);
-      const Model model = undulating(position, 200.0);
-      const double start = prolate_amplitude(at_end(model, position, 0.0, 1e-5));
-      const double expected = relaxed_amplitude(AreaLaw(*model.vesicles[0].undulations), start, time);
-      const double found = prolate_amplitude(at_end(model, position, time, 1e-5));
-      errors.push_back((start - found) / (start - expected) - 1.0);
+      const Matrix position = nearly_spherical(12, s);
+      Model model = undulating(position, 200.0);
+      model.vesicles[0].viscosity_ratio = viscosity_ratio;
+      errors.push_back(error_of_way(model, position, {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 5e-2}, 1e-7));
     }
-    BOOST_TEST(std::abs(errors[2]) < 0.03, time << ": " << errors[2]);
-    // The error extrapolated to s = 0 vanishes.
-    BOOST_TEST(std::abs(2.0 * errors[2] - errors[1]) < 0.004,
-               time << ": " << errors[0] << " " << errors[1] << " " << errors[2]);
+    BOOST_TEST(errors[0] < 0.02);
+    for (std::size_t i : {0, 1}) {
+      const double fall = errors[i] / errors[i + 1];
+      BOOST_TEST(fall > 3.0, viscosity_ratio << ": " << errors[i] << " " << errors[i + 1]);
+      BOOST_TEST(fall < 5.0, viscosity_ratio << ": " << errors[i] << " " << errors[i + 1]);
+    }
+  }
+}
+
+// Sooner, in the first 3 % of the way, the neglected terms reach 2.1 % at s₂ = 0.19.
+BOOST_AUTO_TEST_CASE(stretched_shape_relaxes_as_the_theory_of_second_order_after_the_field) {
+  for (const double excess_area : {0.01, 0.05}) {
+    const Model model = laboratory_model(excess_area, kThermalEnergy);
+    for (const double field : {1e3, 1e4}) {
+      const Matrix stretched = follow(in_field(model, field), nearly_spherical(12, 0.1), {20.0}, 1e-5).position;
+      const double error = error_of_way(model, stretched, {3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0}, 1e-6);
+      BOOST_TEST(error < 0.02, excess_area << ", " << field << " V/m: " << error);
+    }
   }
 }
 
