@@ -43,11 +43,14 @@ Matrix3 nearest_rotation(const Surface& s, const Matrix& from, const Matrix& to)
   return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
+/// Cartesian components of tangent vectors, [n_points x 3].
+Matrix cartesian(const Surface& s, const SphereVectors& v) {
+  return v.d1.asDiagonal() * s.tangent_1 + v.d2.asDiagonal() * s.tangent_2;
+}
+
 /// Values of the divergence-free tangential flow.
 Matrix flow_within(const Membrane& sphere, const Matrix& velocity) {
-  const Surface& s = sphere.surface;
-  const SphereVectors flow = sliding_part(sphere.fine, s, velocity);
-  return flow.d1.asDiagonal() * s.tangent_1 + flow.d2.asDiagonal() * s.tangent_2;
+  return cartesian(sphere.surface, sliding_part(sphere.fine, sphere.surface, velocity));
 }
 
 }  // namespace
@@ -82,16 +85,26 @@ SphereMotion motion_of_displacement(const Membrane& sphere, const Matrix& displa
 
 SurfaceFields moved_sphere(const SurfaceFields& start, const Membrane& sphere, const SphereMotion& motion) {
   const Surface& s = sphere.surface;
-  Matrix radial = from_centre(s) + motion.flow;
-  const Vector retraction = sphere.radius * radial.rowwise().norm().cwiseInverse();
-  radial.array().colwise() *= retraction.array();
-  radial *= motion.rotation.transpose();
-  const Vector3 centre = centroid(s) + motion.translation;
-  SurfaceFields result = start;
-  result.position = sphere.fine.analyze(radial.rowwise() + centre.transpose());
-  const Vector stretch = area_element(sphere.fine, result.position).cwiseQuotient(s.area_element);
   const Vector stretch_before = 1.0 + sphere.fine.synthesize(start.area_strain).col(0).array();
-  result.area_strain = sphere.fine.analyze(stretch_before.cwiseProduct(stretch).array() - 1.0);
+  Matrix radial = from_centre(s) + motion.flow;
+  Vector strain;
+  double before = std::numeric_limits<double>::infinity();
+  for (;;) {
+    const Vector retraction = sphere.radius * radial.rowwise().norm().cwiseInverse();
+    radial.array().colwise() *= retraction.array();
+    const Surface moved = make_surface(sphere.fine, sphere.fine.analyze(radial));
+    strain = stretch_before.cwiseProduct(moved.area_element).cwiseQuotient(s.area_element).array() - 1.0;
+    const double largest = strain.cwiseAbs().maxCoeff();
+    // At the level of rounding or of truncation the strain no longer shrinks.
+    if (!(largest < 0.5 * before)) break;
+    before = largest;
+    const Vector excess = strain.cwiseQuotient(Vector(1.0 + strain.array())).cwiseProduct(moved.area_element);
+    radial -= cartesian(moved, displacement_of_divergence(sphere.fine, moved, excess));
+  }
+  SurfaceFields result = start;
+  radial *= motion.rotation.transpose();
+  result.position = sphere.fine.analyze(radial.rowwise() + (centroid(s) + motion.translation).transpose());
+  result.area_strain = sphere.fine.analyze(strain);
   return result;
 }
 

@@ -31,8 +31,9 @@ SphereMotion motion_of_velocity(const Membrane& sphere, const Matrix& velocity, 
 /// @param displacement  coefficients, [n_coefficients x 3]
 SphereMotion motion_of_displacement(const Membrane& sphere, const Matrix& displacement);
 
-/// The sphere after the motion, at its material points, which end on the translated sphere exactly. The mean tension
-/// stays undetermined.
+/// The sphere after the motion, at its material points, which end on the translated sphere exactly. The strain that the
+/// motion and earlier ones have left is undone: the points move along the gradient of a potential on the sphere. The
+/// mean tension stays undetermined.
 /// @param start  strain at the start of the step; V_m and λ at its end
 SurfaceFields moved_sphere(const SurfaceFields& start, const Membrane& sphere, const SphereMotion& motion);
 

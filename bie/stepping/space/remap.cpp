@@ -21,20 +21,25 @@ constexpr double no_sliding = 1e-13;
 
 }  // namespace
 
-SphereVectors sliding_part(const SphereTransform& fine, const Surface& s, const Matrix& displacement) {
-  SphereDerivatives u = fine.synthesize_gradient(displacement);
-  u.value.rowwise() -= surface_mean(s, u.value).transpose();
-  const Vector normal = u.value.cwiseProduct(s.normal).rowwise().sum();
-  const Vector divergence =
-      s.area_element.cwiseProduct(surface_divergence(s, u) + 2.0 * s.mean_curvature.cwiseProduct(normal));
-  Vector potential = fine.analyze(divergence);
+SphereVectors displacement_of_divergence(const SphereTransform& fine, const Surface& s,
+                                         const Vector& weighted_divergence) {
+  Vector potential = fine.analyze(weighted_divergence);
   potential[0] = 0.0;
   for (int n = 1; n <= fine.order(); ++n) {
     potential.segment(coefficient_index(n, -n), 2 * n + 1) /= -double(n) * (n + 1);
   }
   const SphereDerivatives psi = fine.synthesize_gradient(potential);
-  return {u.value.cwiseProduct(s.dual_1).rowwise().sum() - psi.d1.col(0).cwiseQuotient(s.area_element),
-          u.value.cwiseProduct(s.dual_2).rowwise().sum() - psi.d2.col(0).cwiseQuotient(s.area_element)};
+  return {psi.d1.col(0).cwiseQuotient(s.area_element), psi.d2.col(0).cwiseQuotient(s.area_element)};
+}
+
+SphereVectors sliding_part(const SphereTransform& fine, const Surface& s, const Matrix& displacement) {
+  SphereDerivatives u = fine.synthesize_gradient(displacement);
+  u.value.rowwise() -= surface_mean(s, u.value).transpose();
+  const Vector normal = u.value.cwiseProduct(s.normal).rowwise().sum();
+  const Vector divergence = surface_divergence(s, u) + 2.0 * s.mean_curvature.cwiseProduct(normal);
+  const SphereVectors spreading = displacement_of_divergence(fine, s, s.area_element.cwiseProduct(divergence));
+  return {u.value.cwiseProduct(s.dual_1).rowwise().sum() - spreading.d1,
+          u.value.cwiseProduct(s.dual_2).rowwise().sum() - spreading.d2};
 }
 
 namespace {

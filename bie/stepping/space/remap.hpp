@@ -10,6 +10,12 @@ struct SphereVectors {
   Vector d1, d2;
 };
 
+/// The tangential displacement d with the given J ∇_γ·d: its contravariant components are ∇Ψ/J on the unit sphere, so
+/// that J ∇_γ·d = ΔΨ.
+/// @param weighted_divergence  J ∇_γ·d, values on the upsampled grid, [n_points]; its mean is ignored
+SphereVectors displacement_of_divergence(const SphereTransform& fine, const Surface& surface,
+                                         const Vector& weighted_divergence);
+
 /// Divergence-free part of the tangential part of `displacement`: with a its contravariant components, J a = ∇Ψ + r̂×∇X
 /// on the unit sphere, and only the first part changes area elements. A uniform translation slides no points, so the
 /// mean of the displacement over the surface is subtracted.
