@@ -89,7 +89,7 @@ struct FieldQuestion {
   Eigen::MatrixXd time_error;     ///< error of the levels due to their time steps; empty: none
   Judge judge = Judge::elements;  ///< otherwise `bie` is the reference
   std::string values;             ///< name of the reference field in the levels
-  /// Maps a field of the levels to the field that is compared; empty: the identity.
+  /// Maps a field of the levels to the field that is compared, both [components x points]; empty: the identity.
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> from_level;
   Vector weight;                      ///< quadrature weights of the points
   std::vector<Eigen::Index> columns;  ///< columns of the level's values; empty: all
