@@ -104,6 +104,8 @@ BOOST_AUTO_TEST_CASE(first_command_of_the_page_agrees) {
   BOOST_TEST(check.json["stored"]["force_bending_work"]["judged_by"] == "elements");
   BOOST_TEST(check.json["stored"]["force_bending"]["judged_by"] == "boundary integrals");
   BOOST_TEST(check.text.find("\nverdict: the two methods agree\n") != std::string::npos, check.text);
+  const Check shape33 = checked(VEHD_SOURCE_DIR "/docs/checks/shape33.toml");
+  BOOST_TEST(shape33.exit_code == 0, shape33.text);
 }
 
 namespace {
