@@ -30,7 +30,7 @@ double implicit_step(const TimeSteps& steps);
 ///
 /// The first step is a Runge–Kutta method of order 2 with two stages, at t + 2Δt/3 and t + Δt/3, whose implicit steps
 /// have the same size, so that one matrix suffices; E in this step is that of the start.
-/// @param start  V at the beginning, of arbitrary length
+/// @param start  V at the beginning, [n] of any n, as all values and rates
 /// @throws std::invalid_argument if the number of steps is not positive
 /// Accuracy: order 2 in Δt, for any stiff F that decays (tests/fem_check/backward_differentiation_test.cpp)
 /// Source: Hairer and Wanner, Solving Ordinary Differential Equations II, III.1 and IV.6

@@ -14,9 +14,9 @@ class InextensibleFlow {
 
   /// Velocity and pressure.
   [[nodiscard]] const FlowSolution& flow() const;
-  /// λ at points of γ, force per length; without its mean over γ if the constant is not determined.
+  /// λ at points of γ, [points.size()], force per length; without its mean over γ if the constant is not determined.
   [[nodiscard]] Vector tension(const SurfacePoints& points) const;
-  /// f_λ as the trace function with ∫ f_λ·w dA = −∫ λ ∇_γ·w dA.
+  /// f_λ, [3 x points.size()], as the trace function with ∫ f_λ·w dA = −∫ λ ∇_γ·w dA.
   [[nodiscard]] Vectors tension_force(const SurfacePoints& points) const;
   /// False on a sphere, where a constant tension only changes the pressure inside.
   [[nodiscard]] bool constant_is_determined() const;

@@ -52,7 +52,7 @@ class Stiffness : public dealii::Subscriptor {
   void add_cells(Distributed& to, double scale, const dealii::Vector<double>& u) const;
   /// ∫ ∇u·∇w over one side for the trace functions w of that side: [pairs], on all ranks.
   [[nodiscard]] Vector flux_functional(const dealii::Vector<double>& u, Side side) const;
-  /// Adds nodal values to the free degrees of freedom to which the nodes are tied.
+  /// Adds nodal values, [dofs.size()], to the free degrees of freedom to which the nodes are tied.
   void add_at(Distributed& to, const std::vector<DofIndex>& dofs, const Vector& values) const;
   [[nodiscard]] Distributed inverse_diagonal() const;
 

@@ -9,12 +9,14 @@ namespace vehd::fem_check {
 /// Matrix between two sets of nodal functions.
 using SurfaceMatrix = Eigen::SparseMatrix<double>;
 
-/// Sums local matrices over all faces, [rows of the face x columns of the face].
+/// Sums local matrices over all faces.
 class SurfaceAssembly {
  public:
   SurfaceAssembly(const FaceNodes& rows, const FaceNodes& columns) : rows_(rows), columns_(columns) {}
 
+  /// @param local  [rows of the face x columns of the face]
   void add(int face, const Eigen::MatrixXd& local);
+  /// The sum, [rows x columns].
   [[nodiscard]] SurfaceMatrix matrix() const;
 
  private:

@@ -69,8 +69,8 @@ class TensionPreconditioner {
   TensionPreconditioner(const TensionElements& elements, double viscosity_in, double viscosity_out,
                         bool constant_is_free, InverseRoot::Share share);
 
-  /// Contribution of this rank to the result.
-  /// @param residual  products with the nodal functions of the tension
+  /// Contribution of this rank to the result, nodal values, [tension nodes].
+  /// @param residual  products with the nodal functions of the tension, [tension nodes]
   [[nodiscard]] Vector apply(const Vector& residual) const;
 
  private:

@@ -83,9 +83,9 @@ struct Cost {
   std::size_t peak_memory_bytes = 0;
 };
 
-/// ‖a − b‖/‖b‖ in L2(γ); rows are components.
+/// ‖a − b‖/‖b‖ in L2(γ) of values [components x points].
 double relative_l2(const SurfacePoints& points, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-/// max |a − b| / max |b| over the points; rows are components.
+/// max |a − b| / max |b| over the points, of values [components x points].
 double relative_max(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 }  // namespace vehd::fem_check

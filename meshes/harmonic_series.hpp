@@ -17,6 +17,7 @@ namespace vehd::meshes {
 /// 1e-12 up to degree 64 (tests/meshes/harmonic_series_test.cpp)
 class HarmonicSeries {
  public:
+  /// @param coefficients  [n_coefficients x n_columns]
   /// @throws std::invalid_argument if the number of rows is not the square of a positive integer
   explicit HarmonicSeries(const Eigen::MatrixXd& coefficients);
 

@@ -20,6 +20,7 @@ struct CheckSamples {
 
 /// Points within one grid spacing of the membrane on either side, and points further inside and outside; none beyond a
 /// wall.
+/// @param position  coefficients of x, [n_coefficients x 3]
 CheckSamples check_samples(const Matrix& position, const std::optional<Wall>& wall = {});
 
 /// Values at points, [n_points x components], and the side of each.

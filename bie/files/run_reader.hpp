@@ -62,7 +62,7 @@ class RunSnapshot {
   /// Harmonic coefficients, [n_coefficients x components].
   /// @throws InputError
   [[nodiscard]] Matrix coefficients(const std::string& field) const { return read(field, 0); }
-  /// Coefficients, which must have the stated number of components and the degree of x.
+  /// Coefficients, [n_coefficients x components], which must have the degree of x.
   /// @throws InputError if they do not
   /// @param vesicle  number of the vesicle
   [[nodiscard]] Matrix coefficients(const std::string& field, Index components, std::size_t vesicle = 0) const;

@@ -34,7 +34,7 @@ Experiment experiment_of(const Synthesis& synthesis);
 Vector simulated_values(Experiment experiment, const RunWork& work, Interruption& interruption);
 
 /// CSV of the model values with noise: abscissa, angle of a contour, quantity, deviation.
-/// @param prediction  simulated_values of `experiment`
+/// @param prediction  simulated_values of `experiment`, [n_data]
 std::string synthetic_data(const Synthesis& synthesis, const Experiment& experiment, const Vector& prediction);
 
 }  // namespace vehd

@@ -25,13 +25,13 @@ class RecycledGcr {
               const RecycledSubspace& known = {});
 
   struct Solution {
-    SolveReport report;  ///< with a bound of the true residual; computing b − A x counts as an iteration
-    Vector x;
-    Vector further;            ///< further entries of the map at x
+    SolveReport report;        ///< with a bound of the true residual; computing b − A x counts as an iteration
+    Vector x;                  ///< [size]
+    Vector further;            ///< further entries of the map at x, [n_further]
     double size_of_rhs = 0.0;  ///< norm of the preconditioned right-hand side
   };
-  /// @param rhs         b, of length `size`
-  /// @param start       initial guess, of length `size`, or of length 0 for x = 0
+  /// @param rhs         b, [size]
+  /// @param start       initial guess, [size], or empty for x = 0
   /// @param least_size  residuals are relative to the norm of the preconditioned right-hand side, or to this if larger
   Solution solve(const Vector& rhs, const Vector& start, const SolveOptions& options, double least_size = 0.0);
 

@@ -33,7 +33,7 @@ class SecantInverse {
   /// The identity if `known` is empty.
   explicit SecantInverse(const RecycledSubspace& known);
 
-  /// Applies the formula above; r is as long as the arguments.
+  /// Applies the formula above to r, [size], as long as the arguments.
   [[nodiscard]] Vector apply(const Vector& r) const;
   /// Indices of the columns of `known` that are used.
   [[nodiscard]] const std::vector<Index>& kept() const { return kept_; }

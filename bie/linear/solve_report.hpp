@@ -7,7 +7,7 @@
 
 namespace vehd {
 
-/// x ↦ A x.
+/// x ↦ A x, [size] both.
 using LinearMap = std::function<Vector(const Vector&)>;
 
 /// Stopping criteria of a solve.

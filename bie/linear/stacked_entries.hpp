@@ -55,7 +55,8 @@ class StackedEntries {
     return result;
   }
 
-  /// Vector of length size() that holds the number of each field at all entries of the field.
+  /// Vector that holds the number of each field at all entries of the field, [size()].
+  /// @param numbers  [n_fields]
   [[nodiscard]] Vector spread(const std::vector<double>& numbers) const {
     Vector result(size_);
     for (std::size_t a = 0; a < fields_.size(); ++a) {

@@ -74,8 +74,8 @@ std::vector<RelaxingField> fields_of_charges(const std::vector<ChargingMembrane>
                                              const Interaction& interaction, const std::vector<Unknowns>& charges,
                                              double tolerance, std::vector<Vector> start);
 
-/// A current on a closed membrane, values on the upsampled grid, minus its mean: the net current is zero, which the
-/// quadrature gives only up to its error.
+/// A current on a closed membrane, values on the upsampled grid, [n_points], minus its mean: the net current is zero,
+/// which the quadrature gives only up to its error.
 Vector without_net_current(const Membrane& membrane, Vector current);
 
 /// Rates of the charges on material points, divided by C_m: D q_i/Dt = σ_i E_i − I, D q_e/Dt = −σ_e E_e + I with the

@@ -35,6 +35,7 @@ struct WallGap {
 /// Accuracy: that of top_of on that grid
 WallGap nearest_to_wall(const Wall& wall, const SphereTransform& fine, const Matrix& position);
 /// The point of a membrane that is nearest to a wall, found on a grid of twice its degree.
+/// @param position  coefficients of x, [n_coefficients x 3]
 WallGap nearest_to_wall(const Wall& wall, const Matrix& position);
 
 }  // namespace vehd

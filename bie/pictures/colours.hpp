@@ -45,7 +45,8 @@ struct FieldReach {
   double lower = 0.0, upper = 0.0;
 };
 
-/// @param weights  area that each value represents
+/// @param values   of the field, [n_points]
+/// @param weights  area that each value represents, [n_points]
 /// @return NaN if no value is finite
 FieldReach reach_of(const Vector& values, const Vector& weights);
 

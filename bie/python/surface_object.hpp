@@ -25,7 +25,7 @@ class SurfaceObject {
   SurfaceObject(Matrix position, const ResolutionLevel& level);
 
   [[nodiscard]] int order() const { return space_.order(); }
-  /// Coefficients of x.
+  /// Coefficients of x, [n_coefficients x 3].
   [[nodiscard]] const Matrix& coefficients() const { return position_; }
   /// Transform between the degree and the grid of the surface.
   [[nodiscard]] const SphereTransform& transform() const { return membrane_.fine; }

@@ -13,7 +13,7 @@ namespace vehd::fem_check {
 /// time step. Surface field: Vm.
 struct ChargingLevels {
   LevelSequence sequence;
-  Eigen::MatrixXd time_error;           ///< of V_m due to its time steps, at the points of the comparison
+  Eigen::MatrixXd time_error;           ///< of V_m due to its time steps, [1 x points] of the comparison
   std::optional<double> order_in_time;  ///< observed from the last three numbers of steps
   int steps = 0;                        ///< the largest number, between two discontinuities of the field
 };

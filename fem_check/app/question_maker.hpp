@@ -15,7 +15,7 @@ struct ComparisonPlaces {
   Vector3 centre = Vector3::Zero();  ///< of the shape
 };
 
-/// Degree of a field with (degree + 1)² harmonic coefficients.
+/// Degree of a field with (degree + 1)² harmonic coefficients, [n_coefficients x components].
 int degree_of(const Eigen::MatrixXd& coefficients);
 
 /// Typical sizes of the fields of this problem, root mean squares.
@@ -29,7 +29,7 @@ struct NaturalSizes {
 /// Natural sizes for an input at the points of comparison.
 NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPlaces& places);
 
-/// Root mean square over γ of a field given by coefficients; 0 if it is absent.
+/// Root mean square over γ of a field given by coefficients, [n_coefficients x components]; 0 if it is empty.
 double mean_size(const Eigen::MatrixXd& coefficients, const SurfacePoints& points);
 
 /// Makes questions about fields on γ.
@@ -37,7 +37,8 @@ class QuestionMaker {
  public:
   explicit QuestionMaker(const ComparisonPlaces& places) : places_(places) {}
 
-  /// Question about fields given by coefficients, whose number gives their degrees; reference: `values` of the levels.
+  /// Question about fields given by coefficients, [n_coefficients x components], whose number gives their degrees;
+  /// reference: `values` of the levels.
   [[nodiscard]] FieldQuestion on_surface(const std::string& name, const std::string& label, const std::string& values,
                                          const Eigen::MatrixXd& judged, const Eigen::MatrixXd& bie,
                                          const Eigen::MatrixXd& bie_high, double natural_size) const;
@@ -49,7 +50,7 @@ class QuestionMaker {
 /// Removes the undetermined uniform part from a question about a tension or its force.
 FieldQuestion without_uniform_tension(FieldQuestion question, const SurfacePoints& points);
 
-/// Subtracts `of_points` from all compared values of a question.
+/// Subtracts `of_points`, [components x points], from all compared values of a question.
 FieldQuestion without(FieldQuestion question, const Eigen::MatrixXd& of_points);
 
 }  // namespace vehd::fem_check

@@ -12,9 +12,10 @@ class ShapePath {
  public:
   explicit ShapePath(const InTime& in_time);
 
-  /// Coefficients of x at a time.
+  /// Coefficients of x at a time, [n_coefficients x 3].
   [[nodiscard]] Eigen::MatrixXd position(double time) const;
-  /// Coefficients of the relative velocity dx/dt − v of the points at fixed (θ, φ) and the membrane's material.
+  /// Coefficients of the relative velocity dx/dt − v of the points at fixed (θ, φ) and the membrane's material,
+  /// [n_coefficients x 3].
   [[nodiscard]] Eigen::MatrixXd sliding(double time) const;
   /// Path through every other snapshot and the last one; with two snapshots, constant at the last one.
   [[nodiscard]] ShapePath coarser() const;

@@ -13,7 +13,7 @@ FieldQuestion work_on_smooth(FieldQuestion question, const SurfacePoints& points
 /// Converts a question about f_λ to one about its work on smooth displacements; the levels have λ, and
 /// ∫ f_λ·w dA = −∫ λ ∇_γ·w dA.
 /// @param question  about f_λ, with `values` the name of a tension of the levels
-/// @param position  coefficients of x
+/// @param position  coefficients of x, [n_coefficients x 3]
 FieldQuestion work_of_tension(FieldQuestion question, const Eigen::MatrixXd& position, const SurfacePoints& points);
 
 }  // namespace vehd::fem_check

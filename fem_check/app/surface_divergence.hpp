@@ -13,7 +13,9 @@ namespace vehd::fem_check {
 Vector surface_divergence(const Eigen::MatrixXd& position, const Eigen::MatrixXd& velocity, const Vectors& directions);
 
 /// Cartesian components of ∇_γ f = tᵃ ∂_a f for scalar fields on γ, [fields x points] each.
-/// @param fields  coefficients, [n_coefficients x fields]
+/// @param position    coefficients, [n_coefficients x 3]
+/// @param fields      coefficients, [n_coefficients x fields]
+/// @param directions  r̂ of the points, [3 x points]
 std::array<Eigen::MatrixXd, 3> surface_gradients(const Eigen::MatrixXd& position, const Eigen::MatrixXd& fields,
                                                  const Vectors& directions);
 

@@ -11,8 +11,9 @@ namespace vehd::fem_check {
 /// A field of the boundary-integral side as a function on γ.
 class SurfaceSeries {
  public:
+  /// @param coefficients  on a single membrane, [n_coefficients x components]
   explicit SurfaceSeries(const Eigen::MatrixXd& coefficients) : SurfaceSeries(std::vector{coefficients}) {}
-  /// @param of_vesicles  coefficients on the membrane of each vesicle
+  /// @param of_vesicles  coefficients on the membrane of each vesicle, [n_coefficients x components]
   explicit SurfaceSeries(const std::vector<Eigen::MatrixXd>& of_vesicles) {
     for (const Eigen::MatrixXd& coefficients : of_vesicles) {
       series_.push_back(std::make_shared<const meshes::HarmonicSeries>(coefficients));

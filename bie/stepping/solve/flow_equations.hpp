@@ -10,9 +10,9 @@
 
 namespace vehd {
 
-/// Two scalars on one membrane, coefficients; one that does not exist is empty. As unknowns: `shape` is the change h of
-/// the mean curvature, Eq. (28), or on a sphere the normal force c that holds it in shape; `tension` is λ. As sides of
-/// their equations: h − dt Hop(u) or u·n, and J ∇_γ·u.
+/// Two scalars on one membrane, coefficients [n_coefficients]; one that does not exist is empty. As unknowns: `shape`
+/// is the change h of the mean curvature, Eq. (28), or on a sphere the normal force c that holds it in shape; `tension`
+/// is λ. As sides of their equations: h − dt Hop(u) or u·n, and J ∇_γ·u.
 struct FlowScalars {
   Vector shape;
   Vector tension;
@@ -22,8 +22,8 @@ struct FlowScalars {
 struct FlowOptions {
   /// Step size of the implicit bending; 0: only tension is unknown, and bending is a given force.
   double dt = 0.0;
-  /// λ_0 on the upsampled grid, with which h exerts the force 2 λ_0 h n; empty: zero. The paper's scheme omits it;
-  /// deferred corrections converge the better, the more of the true response is implicit.
+  /// λ_0 on the upsampled grid, [n_points], with which h exerts the force 2 λ_0 h n; empty: zero. The paper's scheme
+  /// omits it; deferred corrections converge the better, the more of the true response is implicit.
   Vector held_tension{};
   /// Transform between a degree above p and the upsampled grid; empty: h has degree p. Positions of degree p have
   /// normal parts, and H, of the next degree. Bending does not act there, but λ_0 does, and must be implicit as well:

@@ -26,8 +26,9 @@ Eigen::Matrix2d sphere_flow_block(const SphereFlow& sphere, int n);
 /// bending.
 double unresolved_curvature(const SphereFlow& sphere, int n);
 
-/// The equations that hold a sphere in shape, degree n: rows u·n and J ∇_γ·u, columns a force c n and λ. Without
-/// bending and dt. Accuracy: closed form; solves on spheres that it preconditions take few iterations
+/// The equations that hold a sphere in shape, degree n, without bending and dt: rows u·n and J ∇_γ·u, columns a force
+/// c n and λ.
+/// Accuracy: closed form; solves on spheres that it preconditions take few iterations
 /// (tests/stepping/solve/tension_solve_test.cpp)
 Eigen::Matrix2d rigid_sphere_block(const SphereFlow& sphere, int n);
 
