@@ -179,16 +179,18 @@ BOOST_AUTO_TEST_CASE(jump_of_the_field_at_the_end_of_a_step_belongs_to_the_next)
   BOOST_TEST(end.vesicles[0].transmembrane_potential.isZero(0.0));
 }
 
+// The rates increase with the number of steps: 1.02, 1.89, 2.78, 3.61 and 4.68 are measured, and 3.9 instead of 4.68
+// between 8 and 16 steps.
 BOOST_AUTO_TEST_CASE(area_that_follows_the_tension_reaches_every_order) {
   const Matrix position = ellipsoid(16, {1.0, 1.0, 1.2});
   Model model = relaxation_model(0.1);
   const double area = surface_area(make_surface({16, make_grid(32)}, position));
   model.vesicles[0].undulations = with_rest_area({0.2, 0.05, 20.0, 0.0, 3.0}, area);
-  const OrderStudy study(model, position, 0.25, 4);
-  study.reaches(1, 0.9);
-  study.reaches(2, 1.7);
-  study.reaches(3, 2.4);
-  study.reaches(4, 3.1);
+  const OrderStudy study(model, position, 1.0, 16);
+  study.reaches(1, 0.95);
+  study.reaches(2, 1.8);
+  study.reaches(3, 2.6);
+  study.reaches(4, 3.4);
   study.reaches(5, 4.2);
 }
 
