@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(a_vesicle_that_buckles_beside_another_is_named) {
   BOOST_TEST(buckling->at("value").get<double>() <= 1.0);
 }
 
-BOOST_AUTO_TEST_CASE(a_suspension_runs_as_what_was_placed) {
+BOOST_AUTO_TEST_CASE(a_suspension_runs_with_its_placed_vesicles) {
   const std::string scene =
       "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 0.9, 1.2]\n[membrane]\nbending_modulus = 0.1\n"
       "[flow]\nkind = \"shear\"\nrate = 1.0\n[contact]\nenergy = 0.1\nrange = 0.5\n"

@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(numbers_convert_by_the_ratio_of_their_scales) {
 }
 
 // SI base-unit values of prefixes and composed units, written out by hand.
-BOOST_AUTO_TEST_CASE(every_unit_is_what_its_name_says) {
+BOOST_AUTO_TEST_CASE(every_unit_has_the_size_of_its_name) {
   const std::map<std::string, double> sizes = {
       {"m", 1},          {"mm", 1e-3},     {"um", 1e-6},      {"nm", 1e-9},
       {"m^2", 1},        {"mm^2", 1e-6},   {"um^2", 1e-12},   {"1/m", 1},
