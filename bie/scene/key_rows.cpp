@@ -256,9 +256,9 @@ void add_poration(auto& scene) {
   auto criterion = poration.of("criterion"), porosity = poration.of("porosity"), pores = poration.of("pores");
   criterion.key("threshold_Vm", &Poration::threshold_potential, positive,
                 {"V_c", "potential", "of |V_m|; this, lysis_tension or both"});
-  criterion.key(
-      "lysis_tension", &Poration::lysis_tension, positive,
-      {"λ_c", "force/length", "of λ + C_m V_m²/2, which a sphere does not determine; this, threshold_Vm or both"});
+  criterion.key("lysis_tension", &Poration::lysis_tension, positive,
+                {"λ_c", "force/length",
+                 "of λ + C_m V_m²/2, which a sphere determines with undulations alone; this, threshold_Vm or both"});
   porosity.key("threshold_Vm", &Poration::threshold_potential, positive,
                {"V_r", "potential", "where β is a half", required});
   porosity.key("porated_conductance", &Poration::porated_conductance, not_negative,

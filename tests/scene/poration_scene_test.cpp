@@ -51,7 +51,7 @@ BOOST_AUTO_TEST_CASE(missing_and_incompatible_keys_are_refused) {
                      "model = \"criterion\"\nthreshold_Vm = 1\n", "\"average\""));
 }
 
-BOOST_AUTO_TEST_CASE(the_tension_of_a_sphere_is_no_criterion) {
+BOOST_AUTO_TEST_CASE(the_tension_of_a_sphere_is_a_criterion_with_undulations_alone) {
   const auto message = [](const std::string& shape, const std::string& criterion) {
     return message_of("[shape]\n" + shape + "\n[numerics]\ndt = 0.1\nend_time = 1\ndegree = 6\n" + in_a_field +
                       "[poration]\nmodel = \"criterion\"\n" + criterion);
@@ -64,6 +64,8 @@ BOOST_AUTO_TEST_CASE(the_tension_of_a_sphere_is_no_criterion) {
     BOOST_TEST(refused.find("\"lysis_tension\" in [poration] of a sphere") != std::string::npos, refused);
   }
   BOOST_TEST(message(sphere, potential) == "");
+  const std::string undulating = "[membrane]\nbending_modulus = 1\nundulations = true\nstretching_modulus = 1\n";
+  BOOST_TEST(message(sphere, lysis + undulating) == "");
   BOOST_TEST(message("kind = \"ellipsoid\"\naxes = [2, 2, 2.01]", lysis) == "");
 }
 

@@ -366,9 +366,9 @@ class SceneChecks {
       if (!poration.lysis_tension) return;
       refuse_if(!(scene_.membrane.inextensible && scene_.membrane.mobile), "poration.lysis_tension",
                 "{} has no effect without a tension; accepted: \"inextensible\" and \"mobile\" in [membrane] true");
-      refuse_if(is_sphere(initial_position(scene_)), "poration.lysis_tension",
+      refuse_if(!scene_.membrane.undulations && is_sphere(initial_position(scene_)), "poration.lysis_tension",
                 "{} of a sphere: a uniform tension of any size moves nothing there, so the tension is not determined; "
-                "accepted: another [shape], or \"threshold_Vm\" alone");
+                "accepted: another [shape], \"undulations\" in [membrane], or \"threshold_Vm\" alone");
       return;
     }
     refuse_if(!scene_.electric, "poration.model",
