@@ -112,7 +112,7 @@ std::string legend_of(const CheckResult& result, const std::vector<Row>& rows) {
   std::string text = fmt::format(
       "  diff.: finite elements against boundary integrals, or against the number of the snapshot (stored), over the "
       "field\n"
-      "  FEM error, run error: what the elements leave out, and what the degree of the run leaves out: its own error\n"
+      "  FEM error, run error: discretisation errors of the elements and of the degree of the run\n"
       "  agree: the difference is within both errors, each at most {0:.3g} of the field; disagree: it is larger;\n"
       "  undecided: it is within them, but the error that is named is larger than {0:.3g}\n",
       result.required);

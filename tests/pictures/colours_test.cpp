@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "bie/pictures/colour_bar.hpp"
+#include "bie/pictures/shape_field.hpp"
 
 using namespace vehd;
 
@@ -101,6 +102,15 @@ BOOST_AUTO_TEST_CASE(every_colour_bar_has_three_ticks_and_texts_that_keep_apart)
       }
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(poration_has_the_symbol_of_its_model) {
+  vehd::Scene scene;
+  scene.poration.emplace().model = vehd::PorationModel::porosity;
+  BOOST_TEST(vehd::field_text(vehd::shape_field("poration"), scene) == "X");
+  scene.poration->model = vehd::PorationModel::pores;
+  BOOST_TEST(vehd::field_text(vehd::shape_field("poration"), scene) == "ln(N/N₀)");
+  BOOST_TEST(vehd::field_text(vehd::shape_field("tension"), scene) == "tension λ");
 }
 
 BOOST_AUTO_TEST_CASE(diverging_colours_are_white_at_their_place) {
