@@ -28,12 +28,13 @@ vehd::Scene relaxing() {
 }
 
 /// A field that is switched on and off again; the steps before each switch start by extrapolation.
-vehd::Scene switched() {
+vehd::Scene switched(const std::string& membrane = {}) {
   return vehd::parse_scene(
-      "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.4]\n[membrane]\nbending_modulus = 1.0\ncapacitance = 1.0\n"
-      "[electric]\nfield = [0.0, 0.0, 0.5]\nconductivity_in = 0.5\nconductivity_out = 1.0\n"
-      "[electric.waveform]\nkind = \"pulse\"\nstart = 0.6\nduration = 0.4\n"
-      "[numerics]\ntolerance = 1e-3\nend_time = 1.4\n[output]\nevery = 0.5\n",
+      "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.4]\n[membrane]\nbending_modulus = 1.0\ncapacitance = 1.0\n" +
+          membrane +
+          "[electric]\nfield = [0.0, 0.0, 0.5]\nconductivity_in = 0.5\nconductivity_out = 1.0\n"
+          "[electric.waveform]\nkind = \"pulse\"\nstart = 0.6\nduration = 0.4\n"
+          "[numerics]\ntolerance = 1e-3\nend_time = 1.4\n[output]\nevery = 0.5\n",
       "scene.toml", ".");
 }
 
@@ -80,9 +81,10 @@ BOOST_AUTO_TEST_CASE(steps_behind_the_checkpoint_are_made_again) {
   BOOST_TEST(killed.checkpoint().snapshots_checksum == whole.checkpoint().snapshots_checksum);
 }
 
-// Just after a jump a checkpoint holds a state without history.
-BOOST_AUTO_TEST_CASE(a_run_goes_on_bit_for_bit_from_each_of_its_steps) {
-  const vehd::Scene scene = switched();
+namespace {
+
+/// Just after a jump a checkpoint holds a state without history.
+void check_going_on_from_each_step(const vehd::Scene& scene) {
   const Directory whole;
   const std::optional<vehd::Checkpoint> none;
   std::vector<vehd::State> states;
@@ -116,6 +118,15 @@ BOOST_AUTO_TEST_CASE(a_run_goes_on_bit_for_bit_from_each_of_its_steps) {
   }
   BOOST_TEST(n_jumps == 2);
   BOOST_TEST(n_with_past > 0);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_run_goes_on_bit_for_bit_from_each_of_its_steps) { check_going_on_from_each_step(switched()); }
+
+BOOST_AUTO_TEST_CASE(a_run_with_undulations_goes_on_bit_for_bit_from_each_of_its_steps) {
+  check_going_on_from_each_step(
+      switched("undulations = true\ntemperature = 0.2\nstretching_modulus = 20\nreference_tension = 3\n"));
 }
 
 BOOST_AUTO_TEST_CASE(the_end_of_a_session_brings_the_checkpoint_up_to_date) {
