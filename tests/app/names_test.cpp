@@ -3,10 +3,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <random>
+#include <regex>
 #include <string>
 #include <vector>
 
 #include "bie/scene/schema.hpp"
+#include "tests/app/finite_elements.hpp"
 #include "tests/app/sweep_folder.hpp"
 
 namespace {
@@ -100,6 +102,26 @@ BOOST_AUTO_TEST_CASE(of_files_and_directories_are_data_to_every_command) {
     const std::string page = file_text(folder.directory / (place + ".html"));
     BOOST_TEST(page.find("touch(1)<!--") == std::string::npos);
     BOOST_TEST(page.find("<script>touch") == std::string::npos);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(of_data_fits_and_checks_are_data) {
+  for (const std::string& name : hostile_names()) {
+    const HostileFolder folder;
+    const std::string place = name.starts_with('-') ? "./" + name : name, data = folder.directory / "data.csv";
+    const std::string scene = quick_scene("0.5");
+    write_text(folder.directory / "scene.toml", scene);
+    folder.run_well({"synthesise", "scene.toml", "-o", place, "--quantity", "Vm_north", "--noise", "0.001", "--quiet"},
+                    name);
+    fs::rename(folder.directory / place, data);
+    write_text(folder.directory / (place + ".toml"),
+               "[[experiment]]\nscene = 'scene.toml'\ndata = 'data.csv'\nquantity = 'Vm_north'\n"
+               "[free]\n'membrane.conductance' = {from = 1.0, to = 9.0}\n");
+    folder.run_well({"fit", place + ".toml", "-o", place, "--jobs", "1", "--quiet"}, name);
+    if (!fs::exists(finite_element_program())) continue;
+    write_text(folder.directory / (place + ".toml"),
+               std::regex_replace(scene, std::regex("bending_modulus = 0.1"), "mobile = false"));
+    folder.run_well({"check", place + ".toml", "--quick", "--ranks", "1", "-o", place + ".check"}, name);
   }
 }
 
