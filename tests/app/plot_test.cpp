@@ -118,6 +118,34 @@ BOOST_FIXTURE_TEST_CASE(every_field_and_view_is_drawn_and_others_are_refused, Pl
   BOOST_TEST(plot({"--field", "colour"}).exit_code == 1);
 }
 
+// Seen along its normal a wall has no edge to draw.
+BOOST_AUTO_TEST_CASE(a_wall_seen_edge_on_is_a_line_below_the_vesicle) {
+  const TemporaryDirectory directory;
+  write_text(directory / "scene.toml",
+             "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.3]\ncentre = [0.0, 0.0, 1.7]\n"
+             "[membrane]\nbending_modulus = 0.1\n[wall]\nnormal = [0.0, 0.0, 1.0]\nflow = \"no-slip\"\n"
+             "[numerics]\norder = 6\ndt = 0.1\nend_time = 0.1\n");
+  BOOST_TEST_REQUIRE(run_vehd({"run", directory / "scene.toml", "-o", directory / "out", "--no-plot"}).exit_code == 0);
+  const std::regex of_wall("stroke='rgb\\( 96,  96,  96\\)' *d='M([0-9.]+),([0-9.]+) L([0-9.]+),([0-9.]+) ");
+  const std::regex of_image("<image x='[^']+' y='([0-9.]+)' width='([0-9.]+)' height='([0-9.]+)'");
+  for (const char* view : {"y", "z"}) {
+    const ProgramResult result =
+        run_vehd({"plot", directory / "out", "--times", "0", "--view", view, "-o", directory / "shapes.svg"});
+    BOOST_TEST_REQUIRE(result.exit_code == 0, result.errors);
+    const std::string svg = file_text(directory / "shapes.svg");
+    std::smatch wall, image;
+    BOOST_TEST_REQUIRE(std::regex_search(svg, wall, of_wall) == (*view == 'y'));
+    if (*view == 'z') continue;
+    BOOST_TEST_REQUIRE(std::regex_search(svg, image, of_image));
+    const double half_height = 0.5 * std::stod(image[3]), middle = std::stod(image[1]) + half_height;
+    BOOST_TEST(wall[2] == wall[4]);
+    BOOST_TEST(std::abs(std::stod(wall[3]) - std::stod(wall[1]) - std::stod(image[2])) < 0.1);
+    // The middle of the vesicle is 1.7 above the wall, and the picture reaches a little further.
+    BOOST_TEST(std::stod(wall[2]) - middle > 0.9 * half_height);
+    BOOST_TEST(std::stod(wall[2]) - middle < half_height);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_missing_field_is_named_with_those_present) {
   const TemporaryDirectory directory;
   write_text(directory / "scene.toml",
