@@ -28,7 +28,8 @@ enum ExitCode { done = 0, refused = 1, internal_error = 2 };
 void write_json(const std::string& path, const nlohmann::json& json) {
   if (path.empty()) return;
   std::ofstream file(path, std::ios::trunc);
-  file << json.dump(2) << "\n";
+  // Bytes that are not UTF-8, as in some file names, become U+FFFD.
+  file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
   file.close();
   if (!file) throw InputError(path + ": cannot be written");
 }
