@@ -282,10 +282,11 @@ void add_poration(auto& scene) {
 
 void add_numerics(auto& scene) {
   auto numerics = scene.always("numerics", &Scene::numerics, "resolution in space and time", required);
-  numerics.key("tolerance", &NumericsScene::tolerance, {tightest_tolerance, 0.1},
-               {"", "1",
-                "required relative error of the columns of history.csv: degree, steps and solvers follow; absent: they "
-                "are fixed"});
+  numerics.key(
+      "tolerance", &NumericsScene::tolerance, {tightest_tolerance, 0.1},
+      {"", "1",
+       "required relative error of the columns of history.csv except pore_density_max: degree, steps and solvers "
+       "follow; absent: they are fixed"});
   numerics
       .key("degree", &NumericsScene::order, {lowest_order, highest_order},
            {"p", "1",
