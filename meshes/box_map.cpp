@@ -66,22 +66,24 @@ Matrix3 BoxMap::axes_along(const Point& normal, const std::vector<FrozenShape>& 
   return axes;
 }
 
-/// `fraction` times the largest box of these proportions about the centroid that fits inside the membrane.
-Matrix3 BoxMap::core_of(const Box& box, const Matrix3& widths, double fraction) {
+/// `fraction` times the largest box parallel to M A about the centroid that fits inside the membrane.
+Matrix3 BoxMap::core_of(const Box& box, double fraction) {
+  const Matrix3 widths = box.shape.affine_part() * box.to_direction;
   const Eigen::Matrix3Xd points = surface_samples(box.shape).colwise() - box.shape.centroid();
   const Eigen::Matrix3Xd scaled = widths.inverse() * points;
   return fraction * scaled.cwiseAbs().colwise().maxCoeff().minCoeff() * widths;
 }
 
 BoxMap::BoxMap(const std::array<FrozenShape, 2>& shapes, const BoxOptions& options)
-    : BoxMap({shapes[0], shapes[1]}, separating_plane(shapes[0], shapes[1]), options) {}
+    : BoxMap({shapes[0], shapes[1]}, {shapes[0], shapes[1]}, separating_plane(shapes[0], shapes[1]), options) {}
 
-BoxMap::BoxMap(const FrozenShape& shape, const Wall& wall, const BoxOptions& options)
-    : BoxMap({shape}, plane_beside(shape, wall), options) {}
+BoxMap::BoxMap(const FrozenShape& shape, const FrozenShape& like, const Wall& wall, const BoxOptions& options)
+    : BoxMap(std::vector{shape}, std::vector{like}, plane_beside(shape, wall), options) {}
 
-BoxMap::BoxMap(const std::vector<FrozenShape>& shapes, const SeparatingPlane& plane, const BoxOptions& options)
+BoxMap::BoxMap(const std::vector<FrozenShape>& shapes, const std::vector<FrozenShape>& like,
+               const SeparatingPlane& plane, const BoxOptions& options)
     : beside_wall_(shapes.size() == 1), centre_(Point::Zero()), outer_radius_(options.outer_radius) {
-  const Matrix3 axes = axes_along(plane.normal, shapes);
+  const Matrix3 axes = axes_along(plane.normal, like);
   std::vector<Extent> extents;
   double radius = 0.0;
   for (const FrozenShape& shape : shapes) {
@@ -97,15 +99,16 @@ BoxMap::BoxMap(const std::vector<FrozenShape>& shapes, const SeparatingPlane& pl
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     Point box_low = low, box_high = high;
     (k == 0 ? box_high : box_low)[2] = plane.offset;
-    const Matrix3 widths = axes * (0.5 * (extents[k].high - extents[k].low)).asDiagonal();
-    Box box{shapes[k], shapes[k].affine_part().inverse() * widths, Matrix3::Zero(), axes * (0.5 * (box_low + box_high)),
+    const Extent of_like = extent_along(axes, surface_samples(like[k]));
+    const Matrix3 widths = axes * (0.5 * (of_like.high - of_like.low)).asDiagonal();
+    Box box{shapes[k], like[k].affine_part().inverse() * widths, Matrix3::Zero(), axes * (0.5 * (box_low + box_high)),
             axes * (0.5 * (box_high - box_low)).asDiagonal()};
     if (!(box.to_direction.determinant() > 0.0)) {
       throw MeshError(
           fmt::format("a membrane whose best ellipsoid is turned inside out, about ({:.6g}, {:.6g}, {:.6g})",
                       box.shape.centroid().x(), box.shape.centroid().y(), box.shape.centroid().z()));
     }
-    box.core = core_of(box, widths, options.core_fraction);
+    box.core = core_of(box, options.core_fraction);
     boxes_.push_back(std::move(box));
   }
   const double reach = 0.5 * (high - low).norm();

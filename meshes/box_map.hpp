@@ -33,16 +33,17 @@ struct BoxOptions {
 /// Each membrane has a box; the boxes share a face, which lies in the plane. A point of a box face with coordinates v
 /// in [−1, 1]², g_k = tan(π v_k/4) and g = ±1 along its axis, has the direction r̂ = A g/|A g|, A = M⁻¹ U W; the
 /// columns of U are the axes of the boxes, W has the half-widths of the shape along them. For an ellipsoid x = x_0 + M
-/// r̂, x − x_0 is then parallel to U W g. Straight lines lead from the core c + K v to x(r̂), on to the point of the
-/// box with coordinates g, and from there, away from the middle of both boxes, to the outer sphere. On a wall the lines
-/// end at the foot of x(r̂) in the middle of the face, and blend into the point of g towards its edges, so that narrow
-/// gaps are resolved.
+/// r̂, x − x_0 is then parallel to U W g. A may be that of another shape, of which this one is a deformation; K is
+/// parallel to M A. Straight lines lead from the core c + K v to x(r̂), on to the point of the box with coordinates g,
+/// and from there, away from the middle of both boxes, to the outer sphere. On a wall the lines end at the foot of x(r̂)
+/// in the middle of the face, and blend into the point of g towards its edges, so that narrow gaps are resolved.
 class BoxMap {
  public:
   /// @throws MeshError if no plane separates the shapes, or if the outer sphere does not hold the boxes
   BoxMap(const std::array<FrozenShape, 2>& shapes, const BoxOptions& options);
+  /// @param like  the shape that determines A
   /// @throws MeshError if the shape crosses the wall, or if the outer sphere does not hold the boxes
-  BoxMap(const FrozenShape& shape, const Wall& wall, const BoxOptions& options);
+  BoxMap(const FrozenShape& shape, const FrozenShape& like, const Wall& wall, const BoxOptions& options);
 
   /// Middle of both boxes.
   [[nodiscard]] const Point& centre() const { return centre_; }
@@ -86,9 +87,10 @@ class BoxMap {
     Point middle;          // of the box
     Matrix3 half;          // from g to the box relative to its middle
   };
-  BoxMap(const std::vector<FrozenShape>& shapes, const SeparatingPlane& plane, const BoxOptions& options);
+  BoxMap(const std::vector<FrozenShape>& shapes, const std::vector<FrozenShape>& like, const SeparatingPlane& plane,
+         const BoxOptions& options);
   static Matrix3 axes_along(const Point& normal, const std::vector<FrozenShape>& shapes);
-  static Matrix3 core_of(const Box& box, const Matrix3& widths, double fraction);
+  static Matrix3 core_of(const Box& box, double fraction);
 
   std::vector<Box> boxes_;
   bool beside_wall_;

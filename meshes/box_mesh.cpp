@@ -212,8 +212,13 @@ BoxMesh make_two_vesicle_mesh(const std::array<FrozenShape, 2>& shapes, const Bo
 }
 
 BoxMesh make_mesh_beside_wall(const FrozenShape& shape, const Wall& wall, const BoxMeshOptions& options) {
+  return make_mesh_beside_wall(shape, shape, wall, options);
+}
+
+BoxMesh make_mesh_beside_wall(const FrozenShape& shape, const FrozenShape& like, const Wall& wall,
+                              const BoxMeshOptions& options) {
   require_options(options);
-  return make_box_mesh(std::make_shared<const BoxMap>(shape, wall, options.boxes), {shape}, wall, options);
+  return make_box_mesh(std::make_shared<const BoxMap>(shape, like, wall, options.boxes), {shape}, wall, options);
 }
 
 }  // namespace vehd::meshes

@@ -172,9 +172,6 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
   const Scene scene = parse_scene(run.scene(), file.string() + " (scene)", file.parent_path());
   span.control = step_control_of(scene);
   take_shapes(run, choice.snapshot, run.nearest(span.end), end, span);
-  // Blocks of a mesh that ends on a wall follow the shape, and so do the directions in which it has points.
-  refuse_if(end.model.wall && span.positions.size() > 1,
-            "has a membrane that moves beside a wall between --from and --time; --from accepts one at rest there");
   take_field(end, scene.electric->waveform, file.string(), span);
   return span;
 }

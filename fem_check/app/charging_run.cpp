@@ -1,5 +1,7 @@
 #include "fem_check/app/charging_run.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 
@@ -42,9 +44,24 @@ ChargingRun::ChargingRun(const CheckInput& input, const Refinement& refinement)
 
 Discretisation ChargingRun::discretise(const Eigen::MatrixXd& position, const Discretisation& like) const {
   const meshes::FrozenShape shape(position);
-  return {std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, block_mesh_options(refinement_, shape),
-                                                                    meshes::axes_along(shape, in_directions_))),
-          like.degree(), Ranks::all, like.points_per_edge()};
+  std::shared_ptr<const meshes::VolumeMesh> mesh;
+  if (input_.wall) {
+    const meshes::FrozenShape end(input_.position);
+    const meshes::Wall& wall = input_.wall->place;
+    meshes::BoxMeshOptions options = wall_mesh_options(refinement_, shape, wall);
+    // Every mesh has as many cells as the last one.
+    options.box_layers = wall_mesh_options(refinement_, end, wall).box_layers;
+    try {
+      mesh = std::make_shared<meshes::BoxMesh>(meshes::make_mesh_beside_wall(shape, end, wall, options));
+    } catch (const meshes::MeshError& error) {
+      throw meshes::MeshError(fmt::format(
+          "--from: the membrane turns too far before the snapshot that is checked, beside a wall: {}", error.what()));
+    }
+  } else {
+    mesh = std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, block_mesh_options(refinement_, shape),
+                                                                     meshes::axes_along(shape, in_directions_)));
+  }
+  return {mesh, like.degree(), Ranks::all, like.points_per_edge()};
 }
 
 Solved ChargingRun::solve(const Discretisation& space, const ChargingPlan& plan) const {

@@ -181,6 +181,31 @@ BOOST_AUTO_TEST_CASE(elements_are_well_formed_at_every_gap_and_fit_into_it) {
   require_well_formed("off-centre sphere", off_centre_sphere(), kNormal, 0.001, 0.2);
 }
 
+// A membrane that sinks and flattens has its points in the same directions all the time.
+BOOST_AUTO_TEST_CASE(directions_are_those_of_a_shape_before_or_after) {
+  const FrozenShape end = asymmetric();
+  const Wall wall = wall_at(end, 0.1);
+  const Point along(0.4, 0.0, 0.2);
+  const Matrix3 stretch = Matrix3::Identity() + along * along.transpose();
+  const FrozenShape earlier(project(16, [&](const Point& r) { return Point(stretch * end.position(r) + kNormal); }));
+  const BoxMesh of_end = make_mesh_beside_wall(end, wall, options_of(3));
+  const BoxMesh of_earlier = make_mesh_beside_wall(earlier, end, wall, options_of(3));
+  const BoxMesh of_itself = make_mesh_beside_wall(earlier, wall, options_of(3));
+  double same = 0.0, other = 0.0;
+  for (int c = 0; c < of_end.n_cells(); ++c) {
+    if (std::ranges::count(of_end.cell(c).faces, FaceKind::membrane) == 0) continue;
+    const Point unit(0.3, 0.6, 0.7), direction = of_end.direction(c, unit);
+    same = std::max(same, (of_earlier.direction(c, unit) - direction).norm());
+    other = std::max(other, (of_itself.direction(c, unit) - direction).norm());
+  }
+  BOOST_TEST(same < 1e-14);
+  BOOST_TEST(other > 1e-3);
+  BOOST_TEST(count_faces(of_earlier).wrong == 0);
+  BOOST_TEST(sheet_gaps(of_earlier, earlier).off_shape < 1e-13);
+  BOOST_TEST(jacobian_error(of_earlier) < 1e-8);
+  BOOST_TEST(quality(of_earlier, earlier, 8).smallest_scaled_jacobian > 0.15);
+}
+
 BOOST_AUTO_TEST_CASE(mesh_does_not_depend_on_unit_or_place) {
   const FrozenShape shape = asymmetric();
   const Wall wall = wall_at(shape, 0.2);

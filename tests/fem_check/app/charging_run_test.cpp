@@ -66,6 +66,34 @@ Vector3 exact_potential(const CheckInput& input, Vector3 a) {
   return a;
 }
 
+/// A sphere that sinks to an insulating wall, to a gap of 0.2, while its material turns about the normal.
+/// @param speed  angle per time by which its points of fixed (θ, φ) turn
+CheckInput sinking_sphere(double speed) {
+  const Vector3 fall(0.0, 0.0, -0.3), rotation(0.0, 0.0, 0.8);
+  CheckInput input;
+  input.wall = InputWall{{Vector3::Zero(), Vector3::UnitZ()}, WallFlow::no_slip, WallField::insulating};
+  input.physics.conductivity_out = 2.0;
+  InTime in_time;
+  in_time.begin = begin;
+  in_time.intervals = 48;
+  in_time.field_times = Vector::LinSpaced(in_time.intervals + 1, begin, end);
+  in_time.field = Vector3(0.9, 0.3, 0.0).replicate(1, in_time.intervals + 1);
+  in_time.shape_times = Vector::LinSpaced(9, begin, end);
+  for (const double time : in_time.shape_times) {
+    const Matrix3 turn = Eigen::AngleAxisd(speed * (time - end), Vector3::UnitZ()).toRotationMatrix();
+    const Vector3 centre = 1.2 * Vector3::UnitZ() + (time - end) * fall;
+    const auto project = [](const auto& field) { return shapes::project(1, field); };
+    using vehd::meshes::Point;
+    in_time.positions.push_back(project([&](const Point& r) { return Point(turn * r + centre); }));
+    in_time.velocities.push_back(project([&](const Point& r) { return Point(rotation.cross(turn * r) + fall); }));
+    if (time == begin)
+      in_time.potential = project([&](const Point& r) { return Point(turn * r); }) * Vector3(0.2, 0.5, -0.4);
+  }
+  input.position = in_time.positions.back();
+  input.in_time = in_time;
+  return input;
+}
+
 Refinement coarse() {
   Refinement refinement = Refinement::quick();
   refinement.cells_per_edge = 1;
@@ -95,6 +123,32 @@ BOOST_AUTO_TEST_CASE(potential_rides_on_the_material_of_a_sphere_that_turns) {
     BOOST_TEST(observed_order(errors[1], errors[2], 2.0) > 1.6);
     BOOST_TEST(errors[2] < 2e-3);
   }
+}
+
+// V_m at a place does not depend on which points of the surface pass it.
+BOOST_AUTO_TEST_CASE(potential_of_a_sinking_sphere_does_not_depend_on_its_points) {
+  const Refinement refinement = coarse();
+  const auto potential_of = [&](double speed, int steps) {
+    const CheckInput input = sinking_sphere(speed);
+    Meshes meshes({vehd::meshes::FrozenShape(input.position)}, refinement, input.wall->place);
+    const ShapePath path(*input.in_time);
+    return ChargingRun(input, refinement)
+        .solve(meshes.discretise(5), {.steps = steps, .settings = {1e-8}, .path = &path})
+        .surface.at("Vm");
+  };
+  std::vector<double> differences;
+  for (const int steps : {6, 12}) {
+    const Eigen::MatrixXd fixed = potential_of(0.0, steps);
+    differences.push_back((potential_of(0.4, steps) - fixed).norm() / fixed.norm());
+  }
+  BOOST_TEST_CONTEXT(differences[0] << " " << differences[1]) {
+    BOOST_TEST(differences[1] < 0.4 * differences[0]);
+    BOOST_TEST(differences[1] < 2e-3);
+  }
+  // The box on the wall does not turn with the membrane.
+  BOOST_CHECK_EXCEPTION(potential_of(1.5, 6), vehd::meshes::MeshError, [](const vehd::meshes::MeshError& error) {
+    return std::string(error.what()).starts_with("--from: the membrane turns too far before");
+  });
 }
 
 BOOST_AUTO_TEST_CASE(steps_have_the_potential_at_the_points_of_their_mesh) {
