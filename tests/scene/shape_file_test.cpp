@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 
@@ -49,9 +50,8 @@ std::string units_text(const vehd::UnitsScene& units) {
 /// to the number of the snapshot plus one.
 class StoredRun {
  public:
-  /// @param turn, place  of the membrane within its shape, and of the vesicle
-  explicit StoredRun(const std::string& scene, const vehd::Matrix3& turn = vehd::Matrix3::Identity(),
-                     const vehd::Triple& place = {}) {
+  /// @param moved  changes each position before it is stored; empty: none
+  explicit StoredRun(const std::string& scene, const std::function<Matrix(const Matrix&)>& moved = {}) {
     const vehd::SphereTransform transform(stored_order, vehd::make_grid(stored_order));
     const vehd::Scene parsed = vehd::parse_scene(scene, "stored.toml", directory_ / "");
     vehd::Hdf5Writer file(path(), vehd::Hdf5Writer::Mode::create);
@@ -61,7 +61,8 @@ class StoredRun {
       vehd::State state;
       state.time = number;
       state.vesicles.emplace_back();
-      state.vesicles[0].position = vehd::shifted(vehd::rotated_fields(position(number), turn), place);
+      state.vesicles[0].position = position(number);
+      if (moved) state.vesicles[0].position = moved(position(number));
       if (parsed.electric) state.vesicles[0].transmembrane_potential = potential(number);
       state.vesicles[0].area_strain = Vector::Zero(state.vesicles[0].position.rows());
       vehd::write_snapshot(file, vehd::snapshot_name(number), transform, state,
@@ -147,9 +148,10 @@ BOOST_AUTO_TEST_CASE(a_snapshot_can_be_scaled_rotated_and_moved_and_its_potentia
 }
 
 BOOST_AUTO_TEST_CASE(a_snapshot_reaches_a_reduced_volume_wherever_the_vesicle_and_its_membrane_have_moved) {
-  const vehd::Matrix3 turn = vehd::rotation_matrix({1, -2, 0.5, 130});
-  const vehd::Triple place = {5.0, 0.0, -2.0};
-  const StoredRun run(ellipsoid + numerics), moved(ellipsoid + numerics, turn, place);
+  const auto move = [](const Matrix& position) -> Matrix {
+    return vehd::shifted(vehd::rotated_fields(position, vehd::rotation_matrix({1, -2, 0.5, 130})), {5.0, 0.0, -2.0});
+  };
+  const StoredRun run(ellipsoid + numerics), moved(ellipsoid + numerics, move);
   for (const double volume : {0.9, 0.97}) {
     const double excess = 4.0 * std::numbers::pi * (std::pow(volume, -2.0 / 3.0) - 1.0);
     const std::string shape = fmt::format("time = 0\nreduced_volume = {}\n", volume);
@@ -159,11 +161,8 @@ BOOST_AUTO_TEST_CASE(a_snapshot_reaches_a_reduced_volume_wherever_the_vesicle_an
                boost::test_tools::tolerance(1e-11));
     const std::string same = fmt::format("time = 0\nexcess_area = {}\n", excess);
     BOOST_TEST(difference(run.membrane(run.scene("", same, "")).position, position) < 1e-9);
-    const Matrix expected = vehd::shifted(vehd::rotated_fields(position, turn), place);
-    BOOST_TEST(difference(moved.membrane(moved.scene("", shape, "")).position, expected) < 1e-10);
+    BOOST_TEST(difference(moved.membrane(moved.scene("", shape, "")).position, move(position)) < 1e-10);
   }
-  BOOST_TEST(run.message(run.scene("", "time = 0\nreduced_volume = 0.1\n", ""))
-                 .find("does not reach the reduced volume 0.1") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(lengths_times_and_potentials_are_those_of_the_file_in_any_units) {
