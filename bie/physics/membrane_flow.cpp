@@ -44,8 +44,8 @@ MembraneFlow::MembraneFlow(const std::vector<FlowMembrane>& membranes, const Int
 MembraneFlow::~MembraneFlow() = default;
 MembraneFlow::MembraneFlow(MembraneFlow&&) noexcept = default;
 
-std::vector<Matrix> MembraneFlow::velocities(const std::vector<Matrix>& weighted, const std::vector<Matrix>& background,
-                                             double least_size) {
+std::vector<Matrix> MembraneFlow::velocities(const std::vector<Matrix>& weighted,
+                                             const std::vector<Matrix>& background) {
   std::vector<Matrix> result =
       interaction_.is_empty() ? std::vector<Matrix>(weighted.size()) : interaction_.stokes_single(weighted);
   for_each_member(interaction_.partition().local_indices(result.size()), [&](std::size_t a) {
@@ -59,7 +59,7 @@ std::vector<Matrix> MembraneFlow::velocities(const std::vector<Matrix>& weighted
   });
   if (!contrast_) return result;
   interaction_.gather_vectors(result);
-  const RecycledGcr::Solution solution = solver_->solve(stacked_.stack(result), {}, kWithinSolve, least_size);
+  const RecycledGcr::Solution solution = solver_->solve(stacked_.stack(result), {}, kWithinSolve);
   require_converged(solution.report, "velocities of membranes with a viscosity contrast");
   return stacked_.fields<Matrix>(solution.x);
 }

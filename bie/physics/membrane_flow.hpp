@@ -46,10 +46,9 @@ class MembraneFlow {
   /// Velocities of the membranes under forces on the fluid, coefficients.
   /// @param weighted    of J f, [n_coefficients x 3]; empty ones are zero
   /// @param background  v_∞ on each, or empty
-  /// @param least_size  norm of velocities to which, if it is larger than that of the result, the tolerance is relative
   /// @throws ConvergenceError if the double layers do not converge
   [[nodiscard]] std::vector<Matrix> velocities(const std::vector<Matrix>& weighted,
-                                               const std::vector<Matrix>& background = {}, double least_size = 0.0);
+                                               const std::vector<Matrix>& background = {});
 
  private:
   const std::vector<FlowMembrane>& membranes_;

@@ -44,11 +44,9 @@ std::vector<RecycledSubspace> suitable(const std::vector<FlowEquations>& equatio
 
 }  // namespace
 
-FlowSystem::FlowSystem(std::vector<FlowEquations> equations, MembraneFlow& flow, std::vector<RecycledSubspace> recycled,
-                       double velocity)
+FlowSystem::FlowSystem(std::vector<FlowEquations> equations, MembraneFlow& flow, std::vector<RecycledSubspace> recycled)
     : equations_(std::move(equations)),
       flow_(flow),
-      velocity_(velocity),
       own_(flow.partition().local_indices(equations_.size())),
       rows_(stacked_rows(equations_)),
       own_velocities_(stacked_velocities(equations_, own_)),
@@ -64,7 +62,7 @@ Vector FlowSystem::map(const Vector& v) const {
     const Matrix force = equations_[a].force(equations_[a].unknowns(parts[a]));
     if (force.size() > 0) weighted[a] = equations_[a].membrane().weighted(force);
   });
-  const std::vector<Matrix> velocities = flow_.velocities(weighted, {}, velocity_);
+  const std::vector<Matrix> velocities = flow_.velocities(weighted);
   std::vector<Vector> sides(equations_.size());
   for_each_member(own_, [&](std::size_t a) { sides[a] = equations_[a].left_side(velocities[a], parts[a]); });
   gather(sides);

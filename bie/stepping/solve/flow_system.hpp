@@ -24,9 +24,7 @@ class FlowSystem {
   ///                  data of its own membranes, see Interaction, and has the unknowns of all
   /// @param recycled  part of RecycledSubspaces of each membrane, with common columns; dropped unless all are in these
   ///                  unknowns
-  /// @param velocity  norm of the velocities to which the solutions are added, see MembraneFlow::velocities
-  FlowSystem(std::vector<FlowEquations> equations, MembraneFlow& flow, std::vector<RecycledSubspace> recycled,
-             double velocity = 0.0);
+  FlowSystem(std::vector<FlowEquations> equations, MembraneFlow& flow, std::vector<RecycledSubspace> recycled);
   FlowSystem(const FlowSystem&) = delete;
   FlowSystem& operator=(const FlowSystem&) = delete;
 
@@ -65,7 +63,6 @@ class FlowSystem {
 
   std::vector<FlowEquations> equations_;
   MembraneFlow& flow_;
-  double velocity_;
   std::vector<std::size_t> own_;
   StackedEntries rows_;
   StackedEntries own_velocities_;

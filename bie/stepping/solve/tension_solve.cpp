@@ -1,7 +1,6 @@
 #include "bie/stepping/solve/tension_solve.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -51,20 +50,17 @@ SolvedTensions solve_tensions(const std::vector<FlowMembrane>& membranes, const 
   const std::size_t n = membranes.size();
   const std::vector<std::size_t> own = flow.partition().local_indices(n);
   const bool recycles = !are_many(std::ssize(membranes)) && std::ranges::count(is_sphere, true) == 0;
-  std::vector<FlowEquations> equations = tension_equations(membranes, is_sphere, flow);
+  FlowSystem system(tension_equations(membranes, is_sphere, flow), flow,
+                    recycles ? recycled : std::vector<RecycledSubspace>());
   std::vector<FlowScalars> first;
-  for (std::size_t a = 0; a < n; ++a) first.push_back(equations[a].guess(start[a]));
+  for (std::size_t a = 0; a < n; ++a) first.push_back(system.equations()[a].guess(start[a]));
   for_each_member(own, [&](std::size_t a) {
-    const Matrix force = equations[a].force(first[a]);
+    const Matrix force = system.equations()[a].force(first[a]);
     if (force.size() == 0) return;
     const Matrix of_tension = membranes[a].membrane.weighted(force);
     weighted[a] = weighted[a].size() == 0 ? of_tension : Matrix(weighted[a] + of_tension);
   });
   const std::vector<Matrix> before = flow.velocities(weighted, background);
-  double squared = 0.0;
-  for (const Matrix& velocity : before) squared += velocity.squaredNorm();
-  FlowSystem system(std::move(equations), flow, recycles ? recycled : std::vector<RecycledSubspace>(),
-                    std::sqrt(squared));
   std::vector<Vector> left(n);
   for (const std::size_t a : own) left[a] = system.equations()[a].left_side(-before[a]);
   system.gather(left);
