@@ -53,8 +53,8 @@ BOOST_FIXTURE_TEST_CASE(a_fit_of_synthetic_data_finds_the_values_of_the_scene, F
 
 // Regression: the aspect ratio along a zero field was 0.
 BOOST_FIXTURE_TEST_CASE(a_quantity_that_is_not_a_number_is_refused, FitWork) {
-  const auto made = [&](const std::string& file, const std::string& field) {
-    return run_vehd({"synthesise", scene, "-o", directory / file, "--quantity", "aspect_ratio_field", "--noise", "0.01",
+  const auto made = [&](const std::string& name, const std::string& field) {
+    return run_vehd({"synthesise", scene, "-o", directory / name, "--quantity", "aspect_ratio_field", "--noise", "0.01",
                      "--seed", "1", "--set", "numerics.end_time=0.1 ms", "--set", field, "--quiet"});
   };
   BOOST_TEST(made("zero.csv", "electric.field_magnitude=0").exit_code == 0);
