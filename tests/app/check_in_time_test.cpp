@@ -8,7 +8,8 @@
 #include "tests/app/reference_run.hpp"
 
 BOOST_AUTO_TEST_SUITE(check_in_time, *boost::unit_test::precondition(finite_elements_are_built) *
-                                         boost::unit_test::label("slow") * boost::unit_test::label("once"))
+                                         boost::unit_test::label("slow") * boost::unit_test::label("extended") *
+                                         boost::unit_test::label("once"))
 
 namespace {
 
