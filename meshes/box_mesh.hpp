@@ -59,7 +59,7 @@ BoxMesh make_two_vesicle_mesh(const std::array<FrozenShape, 2>& shapes, const Bo
 /// Accuracy: as make_two_vesicle_mesh, also on the wall (tests/meshes/wall_mesh_test.cpp)
 BoxMesh make_mesh_beside_wall(const FrozenShape& shape, const Wall& wall, const BoxMeshOptions& options = {});
 
-/// The same with the directions r̂ of the mesh about `like` at corresponding points of the membrane.
+/// A mesh whose nodes on the membrane have the directions r̂ of those of the mesh about `like`.
 /// @param like  of which the shape is a deformation without a large rotation
 BoxMesh make_mesh_beside_wall(const FrozenShape& shape, const FrozenShape& like, const Wall& wall,
                               const BoxMeshOptions& options);
