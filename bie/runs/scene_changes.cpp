@@ -14,12 +14,12 @@
 namespace vehd {
 namespace {
 
-/// The numbers of a value as texts with an SI unit.
-nlohmann::json with_unit(const nlohmann::json& value, double scale, std::string_view unit) {
-  if (value.is_number()) return fmt::format("{:.12g} {}", value.get<double>() * scale, unit);
+/// The numbers of a value as texts with an SI unit; the digits leave out rounding errors of the conversion.
+nlohmann::json with_unit(const nlohmann::json& value, double scale, std::string_view dimension) {
+  if (value.is_number()) return si_number(value.get<double>() * scale, dimension, 12);
   nlohmann::json result = value;
   if (value.is_array()) {
-    for (nlohmann::json& part : result) part = with_unit(part, scale, unit);
+    for (nlohmann::json& part : result) part = with_unit(part, scale, dimension);
   }
   return result;
 }
@@ -34,7 +34,7 @@ nlohmann::json value_of(const Scene& scene, const std::string& key) {
   const Dimension* dimension = find_dimension(key_dimension(scene, key));
   if (!scene.units || dimension == nullptr) return value;
   const double scale = si_scale(scene.units, dimension->name);
-  return std::isnan(scale) ? value : with_unit(value, scale, dimension->si_unit());
+  return std::isnan(scale) ? value : with_unit(value, scale, dimension->name);
 }
 
 std::string shown(const nlohmann::json& value) {

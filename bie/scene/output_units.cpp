@@ -32,7 +32,7 @@ int prefix_power(std::string_view si_unit) {
 /// Symbol with the largest prefix for which the number is at least one, up to rounding.
 std::string suitable_symbol(std::string_view si_unit, double magnitude) {
   const int power = prefix_power(si_unit);
-  if (power == 0) return std::string(si_unit);
+  if (power == 0 || magnitude == 0.0) return std::string(si_unit);
   constexpr double rounding = 1e-9;
   const auto fits = [&](const Prefix& prefix) {
     return magnitude * std::pow(prefix.over, power) >= std::pow(prefix.times, power) * (1.0 - rounding);
@@ -79,15 +79,15 @@ OutputUnit OutputUnits::of(std::string_view dimension) const {
   return std::isfinite(factor) ? OutputUnit{symbol->second, factor} : OutputUnit{};
 }
 
-std::string si_number(double value, std::string_view dimension) {
+std::string si_number(double value, std::string_view dimension, int digits) {
   const std::string_view si_unit = find_dimension(dimension)->si_unit();
   const std::string symbol = suitable_symbol(si_unit, std::abs(value));
-  return fmt::format("{:.4g} {}", in_unit(value, si_unit, symbol), symbol);
+  return fmt::format("{:.{}g} {}", in_unit(value, si_unit, symbol), digits, symbol);
 }
 
 std::string quantity_text(const std::optional<UnitsScene>& units, double value, std::string_view dimension) {
   const double si = value * si_scale(units, dimension);
-  return std::isnan(si) || si == 0.0 ? fmt::format("{:g}", value) : si_number(si, dimension);
+  return std::isnan(si) ? fmt::format("{:g}", value) : si_number(si, dimension);
 }
 
 std::string printed_unit(std::string_view symbol) {

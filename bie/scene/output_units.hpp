@@ -42,7 +42,7 @@ class OutputUnits {
 
 /// A number in SI base units with a suitable prefix: "12 ms" for 0.012 and "time".
 /// @param dimension  of results: see OutputUnits
-std::string si_number(double value, std::string_view dimension);
+std::string si_number(double value, std::string_view dimension, int digits = 4);
 
 /// A number of a scene with the SI unit of its dimension, or the plain number if the scene has no scale for it.
 std::string quantity_text(const std::optional<UnitsScene>& units, double value, std::string_view dimension);

@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(changes_have_the_units_of_their_values) {
   const vehd::SceneChange &place = changes[shape_first ? 0 : 1], &modulus = changes[shape_first ? 1 : 0];
   BOOST_TEST(modulus.before == "2e-19 J");
   BOOST_TEST(modulus.after == "3e-19 J");
-  BOOST_TEST((place.after == nlohmann::json{"0 m", "0 m", "3e-05 m"}), place.after.dump());
+  BOOST_TEST((place.after == nlohmann::json{"0 m", "0 m", "30 um"}), place.after.dump());
 }
 
 BOOST_FIXTURE_TEST_CASE(an_unchanged_scene_goes_on_as_if_never_interrupted, Runs) {

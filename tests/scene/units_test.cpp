@@ -384,9 +384,11 @@ BOOST_AUTO_TEST_CASE(a_value_that_should_give_a_scale_is_to_blame_if_it_cannot_b
   BOOST_TEST(message("'1 µPa s'").find("unit \"µPa s\"") != std::string::npos, message("'1 µPa s'"));
 }
 
-BOOST_AUTO_TEST_CASE(checks_say_times_in_units) {
-  BOOST_TEST(message_of(si_scene() + "[output]\ntimes = [\"2 ms\", \"0.5 ms\"]\n").find("falls to 500 us; accepted") !=
+BOOST_AUTO_TEST_CASE(checks_say_times_as_typed) {
+  BOOST_TEST(message_of(si_scene() + "[output]\ntimes = [\"2 ms\", \"0.5 ms\"]\n").find("falls to 0.5 ms; accepted") !=
              std::string::npos);
+  BOOST_TEST(message_of(si_scene() + "[[output.window]]\nfrom = \"2 ms\"\nto = \"0.5 ms\"\nevery = \"1 us\"\n")
+                 .find("goes from 2 ms to 0.5 ms every 1 us; accepted") != std::string::npos);
   BOOST_TEST(message_of(si_scene() + "[electric.waveform]\nkind = \"pulse_train\"\nduration = \"3 ms\"\nperiod = "
                                      "\"2 ms\"\n")
                  .find("is 2 ms; accepted: more than the duration 3 ms") != std::string::npos);

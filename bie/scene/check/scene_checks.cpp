@@ -26,6 +26,11 @@ constexpr double fewest_fixed_steps_a_period = 4.0;
 /// Largest truncation error of a cap, relative to its step. The factor may fall below zero by as much.
 constexpr double largest_truncation = 0.02;
 
+/// Index of the first time that is before its predecessor; their number if they ascend.
+std::size_t first_fall(const std::vector<double>& times) {
+  return static_cast<std::size_t>(std::ranges::is_sorted_until(times) - times.begin());
+}
+
 class SceneChecks {
  public:
   SceneChecks(Scene& scene, const TomlFile& file, const std::vector<Scene>& all)
@@ -45,7 +50,7 @@ class SceneChecks {
     check_varying_properties();
     check_shape_file();
     check_size();
-    if (scene_.poration) check_poration(*scene_.poration);
+    check_poration(scene_, file_);
   }
 
  private:
@@ -60,8 +65,6 @@ class SceneChecks {
     const std::string called = fmt::format("\"{}\" in [{}]", key.substr(dot + 1), key.substr(0, dot));
     file_.refuse_key(key.substr(0, dot), key.substr(dot + 1), "{}", fmt::format(problem, called, arguments...));
   }
-
-  [[nodiscard]] std::string time_text(double time) const { return quantity_text(scene_.units, time, "time"); }
 
   void check_steps() const {
     const NumericsScene& n = scene_.numerics;
@@ -147,8 +150,8 @@ class SceneChecks {
     if (!waveform) return;
     if (waveform->kind == WaveformKind::pulse_train) {
       refuse_if(waveform->period <= waveform->duration, table + ".period",
-                "{} is {}; accepted: more than the duration {}", time_text(waveform->period),
-                time_text(waveform->duration));
+                "{} is {}; accepted: more than the duration {}", file_.typed(table + ".period"),
+                file_.typed(table + ".duration"));
     }
     if (waveform->kind != WaveformKind::table) return;
     const auto& times = waveform->times;
@@ -157,15 +160,19 @@ class SceneChecks {
               waveform->values.size());
     refuse_if(times.size() < 2, table + ".times", "the table of [{1}] has {2} entries; accepted: at least 2", table,
               times.size());
-    const auto fall = std::ranges::is_sorted_until(times);
-    if (fall != times.end()) {
+    // Times from a file of numbers are not in the scene.
+    const auto text_of = [&](std::size_t i) {
+      return file_.typed(fmt::format("{}.times[{}]", table, i), quantity_text(scene_.units, times[i], "time"));
+    };
+    const std::size_t fall = first_fall(times);
+    if (fall < times.size()) {
       file_.refuse_key(table, "times", "the table of [{}] falls to the time {}; accepted: ascending times", table,
-                       time_text(*fall));
+                       text_of(fall));
     }
     for (std::size_t i = 2; i < times.size(); ++i) {
       refuse_if(times[i] == times[i - 2], table + ".times",
                 "the table of [{1}] has the time {2} three times; accepted: twice, which makes a jump", table,
-                time_text(times[i]));
+                text_of(i));
     }
   }
 
@@ -201,10 +208,12 @@ class SceneChecks {
   void check_output() const {
     const OutputScene& output = scene_.output;
     const double end = scene_.numerics.end_time;
-    for (const OutputWindow& window : output.windows) {
+    for (std::size_t i = 0; i < output.windows.size(); ++i) {
+      const OutputWindow& window = output.windows[i];
+      const std::string path = fmt::format("output.window[{}]", i);
       refuse_if(!(window.every > 0.0 && window.to > window.from), "output.window",
-                "{} goes from {} to {} every {}; accepted: a later \"to\" and an \"every\" > 0", time_text(window.from),
-                time_text(window.to), time_text(window.every));
+                "{} goes from {} to {} every {}; accepted: a later \"to\" and an \"every\" > 0",
+                file_.typed(path + ".from"), file_.typed(path + ".to"), file_.typed(path + ".every"));
     }
     require_few_steps();
     double count = 0.0;
@@ -220,10 +229,10 @@ class SceneChecks {
     }
     add("output.window", in_windows);
     add("output.times", static_cast<double>(output.times.size()));
-    const auto fall = std::ranges::is_sorted_until(output.times);
-    if (fall != output.times.end()) {
+    const std::size_t fall = first_fall(output.times);
+    if (fall < output.times.size()) {
       file_.refuse_key("output", "times", "\"times\" in [output] falls to {}; accepted: ascending times",
-                       time_text(*fall));
+                       file_.typed(fmt::format("output.times[{}]", fall)));
     }
     refuse_if(output.units == ResultUnits::si && !scene_.units, "output.units",
               "{} is \"si\", but the scene has no table [units]");
@@ -316,7 +325,8 @@ class SceneChecks {
       const double factor = *conversion(units, scene_.units, &UnitsScene::time);
       const double time = *shape.time / factor;
       refuse_if(!run.find(time), "shape.time", "{} is {}, at which {} has no snapshot; the nearest is at {}",
-                time_text(*shape.time), shape.path, time_text(run.times()[run.nearest(time)] * factor));
+                file_.typed("shape.time"), shape.path,
+                quantity_text(scene_.units, run.times()[run.nearest(time)] * factor, "time"));
     }
     refuse_if(!fix_snapshot(scene_, run), "shape.checksum", "{} is not that of {}, which has changed", shape.path);
     if (!scene_.electric || has_averaged_field(scene_) || has_relaxing_charge(scene_)) return;
@@ -352,38 +362,6 @@ class SceneChecks {
     file_.refuse(*file_.table.get("shape"),
                  "the shape in [shape] has the area {:g} and the volume {:g}; accepted: > 0 and finite", size.area,
                  size.volume);
-  }
-
-  void check_poration(const PorationScene& poration) const {
-    refuse_if(has_averaged_field(scene_), "poration.model",
-              "\"average\" in [electric.waveform] is true with [poration], which needs V_m at every time; "
-              "accepted: false");
-    if (poration.model == PorationModel::criterion) {
-      refuse_if(!poration.threshold_potential && !poration.lysis_tension, "poration.model",
-                "missing key \"threshold_Vm\" or \"lysis_tension\" in [poration]; accepted: one or both");
-      refuse_if(poration.threshold_potential && !scene_.electric, "poration.threshold_Vm",
-                "{} has no effect without [electric]");
-      if (!poration.lysis_tension) return;
-      refuse_if(!(scene_.membrane.inextensible && scene_.membrane.mobile), "poration.lysis_tension",
-                "{} has no effect without a tension; accepted: \"inextensible\" and \"mobile\" in [membrane] true");
-      refuse_if(!scene_.membrane.undulations && is_sphere(initial_position(scene_)), "poration.lysis_tension",
-                "{} of a sphere: a uniform tension of any size moves nothing there, so the tension is not determined; "
-                "accepted: another [shape], \"undulations\" in [membrane], or \"threshold_Vm\" alone");
-      return;
-    }
-    refuse_if(!scene_.electric, "poration.model",
-              "[poration] has no effect without [electric]; accepted: model = criterion");
-    const ElectricScene& electric = *scene_.electric;
-    refuse_if(electric.initial_potential == InitialPotential::steady, "poration.model",
-              "[poration] with a steady \"initial_Vm\" in [electric], under which a membrane would porate at once; "
-              "accepted: zero or file");
-    refuse_if(poration.model == PorationModel::porosity && poration.resealing_time <= poration.poration_time,
-              "poration.resealing_time", "{} is {}; accepted: more than the \"poration_time\" {}",
-              time_text(poration.resealing_time), time_text(poration.poration_time));
-    refuse_if(poration.model == PorationModel::pores && !poration.pore_conductivity &&
-                  (electric.conductivity_in == 0.0 || electric.conductivity_out == 0.0),
-              "poration.model",
-              "missing key \"pore_conductivity\" in [poration]: a conductivity in [electric] is 0; accepted: > 0");
   }
 
   Scene& scene_;

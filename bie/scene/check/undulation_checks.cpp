@@ -40,10 +40,10 @@ void check_undulations(const Scene& scene, const TomlFile& file, const std::vect
   Undulations found{*m.temperature, 0.5 * *m.bending_modulus, m.stretching_modulus, area, *m.reference_tension};
   const double buckling = AreaLaw(found).least_tension();
   found.rest_area = 0.0;
-  refuse_if(!(with_rest_area(found, area).rest_area > 0.0), "reference_tension",
-            fmt::format("is {}, but a membrane of this area buckles at {}; accepted: more",
-                        quantity_text(scene.units, *m.reference_tension, "force/length"),
-                        quantity_text(scene.units, buckling, "force/length")));
+  refuse_if(
+      !(with_rest_area(found, area).rest_area > 0.0), "reference_tension",
+      fmt::format("is {}, but a membrane of this area buckles at {}; accepted: more",
+                  file.typed("membrane.reference_tension"), quantity_text(scene.units, buckling, "force/length")));
 }
 
 }  // namespace vehd

@@ -39,6 +39,9 @@ void check_scene(Scene& scene, const TomlFile& file, const std::vector<Scene>& a
 /// The part of check_scene about undulations.
 void check_undulations(const Scene& scene, const TomlFile& file, const std::vector<Scene>& all);
 
+/// The part of check_scene about poration.
+void check_poration(const Scene& scene, const TomlFile& file);
+
 /// Places the vesicles of a table [suspension]: copies of the vesicle of the other tables, with the names "0", "1", …,
 /// one after the other at random positions with enough room. The result is reproducible. Counts above most_vesicles or
 /// above the volume of the region are refused before memory is allocated.

@@ -274,6 +274,12 @@ const toml::node& TomlFile::node_of(std::string_view dotted, std::string_view ke
   return node ? *node.node() : *owner.node();
 }
 
+std::string TomlFile::typed(std::string_view path, const std::string& otherwise) const {
+  const auto node = table.at_path(path);
+  if (!node) return otherwise;
+  return node.is_string() ? node.as_string()->get() : shown(*node.node());
+}
+
 void NamedTable::refuse_value(std::string_view key, std::string_view rest) const {
   const toml::node& node = *entries.get(key);
   file.refuse(node, "\"{}\" in {} is {}{}", key, name, shown(node), rest);

@@ -34,6 +34,9 @@ struct TomlFile {
   [[nodiscard]] const toml::table* find(std::string_view dotted) const { return table.at_path(dotted).as_table(); }
   /// The node of a key of a table, or of the table if the key is absent.
   [[nodiscard]] const toml::node& node_of(std::string_view dotted, std::string_view key) const;
+  /// A value as typed, such as 0.5 ms; `otherwise` if it is absent.
+  /// @param path  as "output.times[2]"
+  [[nodiscard]] std::string typed(std::string_view path, const std::string& otherwise = {}) const;
 
   /// @throws InputError "file:line: problem"
   template <typename... Arguments>
