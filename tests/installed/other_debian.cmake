@@ -2,13 +2,16 @@
 # is a 13. The system and the build in it stay in ${XDG_CACHE_HOME:-~/.cache}/vehd for the next time:
 #   cmake -P other_debian.cmake
 # Before -P: -DRELEASE=trixie for another release, -DTESTS=REGEX for other tests than those of Python and the notebooks,
-# "." for all. It needs root, mmdebstrap, git and the network; if the system cannot be made or entered it reports that
-# and ends.
+# "." for all, -DEXTENDED=OFF for the ordinary ones of them. It needs root, mmdebstrap, git and the network; if the
+# system cannot be made or entered it reports that and ends.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/bare_debian.cmake")
 
 if(NOT DEFINED TESTS)
   set(TESTS "^(python/|notebooks)")
+endif()
+if(NOT DEFINED EXTENDED)
+  set(EXTENDED ON)
 endif()
 if(NOT DEFINED RELEASE)
   set(RELEASE trixie)
@@ -55,4 +58,4 @@ set(strict -DCMAKE_COMPILE_WARNING_AS_ERROR=ON)
 within("cmake ${strict} -P bie/setup.cmake")
 within("cmake ${strict} -DSTEP=check -P bie/setup.cmake")
 within("build/vehd check docs/checks/shape33.toml --quick -o out/shape33_check")
-within("cmake ${strict} -DSTEP=test -DEXTENDED=ON \"-DTESTS=${TESTS}\" -P bie/setup.cmake")
+within("cmake ${strict} -DSTEP=test -DEXTENDED=${EXTENDED} \"-DTESTS=${TESTS}\" -P bie/setup.cmake")
