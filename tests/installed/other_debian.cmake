@@ -41,6 +41,8 @@ if(NOT EXISTS "${root}/root/vehd")
 endif()
 run(git -C "${root}/root/vehd" fetch -q "${CMAKE_CURRENT_LIST_DIR}/../.." HEAD)
 run(git -C "${root}/root/vehd" checkout -q --force --detach FETCH_HEAD)
+# Runs of an earlier commit, which this one may not be able to continue.
+file(REMOVE_RECURSE "${root}/root/vehd/out")
 
 # Runs a line of shell within the system, in the folder of the README; /proc, /dev and /sys are unmounted at its end.
 function(within line)
