@@ -58,7 +58,7 @@ Refinement refinement_for(const CheckTask& task, const std::vector<CheckInput>& 
   const bool single = shapes.size() == 1;
   Refinement refinement = Refinement::finest();
   if (task.quick) {
-    refinement = single ? Refinement::quick() : Refinement::quick_of_two();
+    refinement = single ? Refinement::quick_of(shapes.front()) : Refinement::quick_of_two();
   } else if (single) {
     refinement = Refinement::following(shapes.front());
   }

@@ -32,10 +32,21 @@ Refinement Refinement::of_strongly_bent_bowl() {
   return refinement;
 }
 
+namespace {
+
+bool is_strongly_bent(const meshes::FrozenShape& shape) {
+  return meshes::is_strongly_bent(shape, Refinement::finest().cells_per_edge);
+}
+
+bool is_bowl(const meshes::FrozenShape& shape) {
+  return meshes::cells_have_to_be_relaxed(shape, block_mesh_options(Refinement::of_strongly_bent_bowl(), shape));
+}
+
+}  // namespace
+
 Refinement Refinement::following(const meshes::FrozenShape& shape) {
-  if (!meshes::is_strongly_bent(shape, finest().cells_per_edge)) return finest();
-  const Refinement bowl = of_strongly_bent_bowl();
-  return meshes::cells_have_to_be_relaxed(shape, block_mesh_options(bowl, shape)) ? bowl : of_strongly_bent();
+  if (!is_strongly_bent(shape)) return finest();
+  return is_bowl(shape) ? of_strongly_bent_bowl() : of_strongly_bent();
 }
 
 void Refinement::resolve(int degree) {
@@ -54,6 +65,19 @@ Refinement Refinement::quick() {
   refinement.flow_target = 0.0;
   refinement.potential_tolerance = 1e-8;
   refinement.flow_tolerance = 1e-6;
+  return refinement;
+}
+
+Refinement Refinement::quick_of(const meshes::FrozenShape& shape) {
+  Refinement refinement = quick();
+  if (!is_strongly_bent(shape) || !is_bowl(shape)) return refinement;
+  const Refinement bowl = of_strongly_bent_bowl();
+  refinement.cells_per_edge = bowl.cells_per_edge;
+  refinement.blend_layers = bowl.blend_layers;
+  refinement.shell_layers = bowl.shell_layers;
+  for (auto* degrees : {&refinement.potential_degrees, &refinement.flow_degrees, &refinement.shape_flow_degrees}) {
+    *degrees = {3, 4, 5};
+  }
   return refinement;
 }
 

@@ -53,6 +53,16 @@ BOOST_AUTO_TEST_CASE(strongly_bent_shapes_have_smaller_cells_and_bowls_higher_de
   BOOST_TEST(highest_degree(of_bowl) > highest_degree(Refinement::following(ellipsoid(1.0, 0.2))));
 }
 
+BOOST_AUTO_TEST_CASE(quick_checks_have_smaller_cells_in_bowls_only) {
+  const Refinement quick = Refinement::quick();
+  for (const FrozenShape& shape : {shapes::prolate(), ellipsoid(1.0, 5.0), ellipsoid(1.0, 0.2)}) {
+    BOOST_TEST(Refinement::quick_of(shape).cells_per_edge == quick.cells_per_edge);
+  }
+  const Refinement of_bowl = Refinement::quick_of(bowl(0.5));
+  BOOST_TEST(of_bowl.cells_per_edge == Refinement::following(bowl(0.5)).cells_per_edge);
+  BOOST_TEST(highest_degree(of_bowl) < highest_degree(Refinement::following(bowl(0.5))));
+}
+
 // The mean of Y_n0 over the sphere and its product with another harmonic are zero: a nonzero quadrature result is an
 // aliasing error.
 BOOST_AUTO_TEST_CASE(points_of_the_comparison_resolve_waves_of_a_degree) {
