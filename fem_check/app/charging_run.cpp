@@ -55,7 +55,8 @@ Discretisation ChargingRun::discretise(const Eigen::MatrixXd& position, const Di
       mesh = std::make_shared<meshes::BoxMesh>(meshes::make_mesh_beside_wall(shape, end, wall, options));
     } catch (const meshes::MeshError& error) {
       throw meshes::MeshError(fmt::format(
-          "--from: the membrane turns too far before the snapshot that is checked, beside a wall: {}", error.what()));
+          "--from: beside a wall no mesh follows the membrane back from the checked snapshot; it may turn too far: {}",
+          error.what()));
     }
   } else {
     mesh = std::make_shared<meshes::HexMesh>(meshes::make_block_mesh(shape, block_mesh_options(refinement_, shape),

@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(potential_of_a_sinking_sphere_does_not_depend_on_its_points
   }
   // The box on the wall does not turn with the membrane.
   BOOST_CHECK_EXCEPTION(potential_of(1.5, 6), vehd::meshes::MeshError, [](const vehd::meshes::MeshError& error) {
-    return std::string(error.what()).starts_with("--from: the membrane turns too far before");
+    return std::string(error.what()).starts_with("--from: beside a wall no mesh follows the membrane");
   });
 }
 
