@@ -81,8 +81,8 @@ BOOST_AUTO_TEST_CASE(changes_have_the_units_of_their_values) {
   BOOST_TEST_REQUIRE(changes.size() == 2U);
   const bool shape_first = changes[0].key.starts_with("shape");
   const vehd::SceneChange &place = changes[shape_first ? 0 : 1], &modulus = changes[shape_first ? 1 : 0];
-  BOOST_TEST(modulus.before == "2e-19 J");
-  BOOST_TEST(modulus.after == "3e-19 J");
+  BOOST_TEST(modulus.before == "200 zJ");
+  BOOST_TEST(modulus.after == "300 zJ");
   BOOST_TEST((place.after == nlohmann::json{"0 m", "0 m", "30 um"}), place.after.dump());
 }
 
