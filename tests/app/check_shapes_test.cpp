@@ -4,10 +4,8 @@
 #include "tests/app/finite_elements.hpp"
 #include "tests/app/program.hpp"
 
-// The finite elements run one process on each processor.
 BOOST_AUTO_TEST_SUITE(check_shapes, *boost::unit_test::precondition(finite_elements_are_built) *
-                                        boost::unit_test::label("slow") * boost::unit_test::label("alone") *
-                                        boost::unit_test::label("once"))
+                                        boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "tests/fit/fit_folder.hpp"
 
 // Designs whose undetermined combinations of keys are known.
-BOOST_AUTO_TEST_SUITE(identifiability, *boost::unit_test::label("slow"))
+BOOST_AUTO_TEST_SUITE(identifiability, *boost::unit_test::label("slow") * boost::unit_test::label("extended"))
 
 namespace {
 
