@@ -57,7 +57,7 @@ struct Refinement {
   /// axisymmetric shape, gains nothing from the next odd degree, and an odd field nothing from an even degree. A step
   /// of one degree can then hide the remaining error.
   static Refinement quick();
-  /// The same, with the cells of a bowl if the shape is one: on larger cells the changes from degree to degree do not
+  /// quick(), with the cells of a bowl if the shape is one: on larger cells the changes from degree to degree do not
   /// show the errors at its rim.
   static Refinement quick_of(const meshes::FrozenShape& shape);
   /// With an even number of cells along an edge, no cell is centred at a pole.
