@@ -170,9 +170,10 @@ class SceneChecks {
                        text_of(fall));
     }
     for (std::size_t i = 2; i < times.size(); ++i) {
-      refuse_if(times[i] == times[i - 2], table + ".times",
-                "the table of [{1}] has the time {2} three times; accepted: twice, which makes a jump", table,
-                text_of(i));
+      if (times[i] != times[i - 2]) continue;
+      file_.refuse_key(table, "times",
+                       "the table of [{}] has the time {} three times; accepted: twice, which makes a jump", table,
+                       text_of(i));
     }
   }
 
