@@ -23,7 +23,7 @@ Vector first_step(const TimeLaw& law, const Vector& start, const Vector& drift, 
 double implicit_step(const TimeSteps& steps) { return implicit_share * (steps.end - steps.begin) / steps.number; }
 
 Vector advance(const TimeLaw& law, const Vector& start, const TimeSteps& steps) {
-  if (steps.number < 1) throw std::invalid_argument("to advance in time takes a step at least");
+  if (steps.number < 1) throw std::invalid_argument("the number of time steps must be at least 1");
   const double dt = (steps.end - steps.begin) / steps.number, size = implicit_step(steps);
   const auto drift_at = [&](const Vector& value, double time) {
     return law.explicit_rate ? law.explicit_rate(value, time) : Vector(Vector::Zero(value.size()));

@@ -11,7 +11,7 @@ namespace {
 
 int required_degree(int degree) {
   if (degree < 2) {
-    throw std::invalid_argument("bending takes elements of degree 2 at least, not " + std::to_string(degree));
+    throw std::invalid_argument("the degree of the bending elements must be at least 2, not " + std::to_string(degree));
   }
   return degree;
 }
@@ -143,8 +143,8 @@ namespace {
 
 void require_holds(int degree, int field_degree) {
   if (degree >= field_degree) return;
-  throw std::invalid_argument("bending of degree " + std::to_string(degree) + " does not hold functions of degree " +
-                              std::to_string(field_degree));
+  throw std::invalid_argument("elements of bending of degree " + std::to_string(degree) +
+                              " do not include functions of degree " + std::to_string(field_degree));
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ Eigen::MatrixXd exterior_potential(int degree, double robin);
 /// @return [3 n_harmonics x 3 n_harmonics]
 Eigen::MatrixXd exterior_flow(int degree, double robin);
 
-/// One of these matrices for the half sphere beside a wall beyond which the field continues exactly as its mirror
-/// image.
+/// One of these matrices for the half sphere beside a wall, if the field beyond the wall is the mirror image of the
+/// field before it.
 /// @param matrix  [n x n], and so the result
 /// @param mirror  [components x components], maps the values at a point to those at its image: 1 for an insulating
 ///                wall, −1 for an electrode, I − 2 n nᵀ for flow along a stress-free wall

@@ -28,9 +28,7 @@ FlowSolution flow_solution(const StokesSystem& system, const FlowProblem& proble
   data->gradient = problem.gradient;
   for (unsigned d = 0; d < 3; ++d) data->velocity[d] = system.velocity(solution, d);
   data->pressure = system.pressure(solution);
-  cost.n_cells = static_cast<int>(data->space->triangulation.n_active_cells());
   cost.n_unknowns = static_cast<long>(solution.size());
-  cost.seconds_setup = data->space->seconds_setup;
   cost.peak_memory_bytes = peak_memory_bytes();
   data->cost = cost;
   return FlowSolution(data);
@@ -49,11 +47,7 @@ void begin_from(const FlowSolution& start, const StokesSystem& system, Blocks& s
 
 FlowOperators::FlowOperators(const Discretisation& discretisation, const PerVesicle<double>& viscosity_in,
                              double viscosity_out, WallFlow wall)
-    : data_([&] {
-        Stopwatch watch;
-        StokesSystem system(discretisation, {viscosity_in, viscosity_out}, wall);
-        return std::make_shared<const Data>(Data{std::move(system), discretisation.degree(), watch.lap()});
-      }()) {}
+    : data_(std::make_shared<const Data>(Data{StokesSystem(discretisation, {viscosity_in, viscosity_out}, wall)})) {}
 
 FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem& problem, const FlowSolution* start) {
   return solve_flow(FlowOperators(discretisation, problem.viscosity_in, problem.viscosity_out, problem.wall), problem,
@@ -61,14 +55,11 @@ FlowSolution solve_flow(const Discretisation& discretisation, const FlowProblem&
 }
 
 FlowSolution solve_flow(const FlowOperators& operators, const FlowProblem& problem, const FlowSolution* start) {
-  Stopwatch watch;
   Cost cost;
-  cost.seconds_assembly = operators.data().seconds;
   const StokesSystem system = system_for(operators, problem);
   Blocks solution = system.zero();
   if (start != nullptr) begin_from(*start, system, solution);
   system.solve(system.load(problem.force, problem.gradient), problem.tolerance, solution, cost);
-  cost.seconds_solve = watch.lap();
   return flow_solution(system, problem, solution, cost);
 }
 

@@ -169,13 +169,11 @@ struct InextensibleOperators::Data {
   std::shared_ptr<const TensionElements> elements;
   bool constant_is_determined;
   TensionPreconditioner preconditioner;
-  double seconds;  ///< time of the set-up, without the flow
 };
 
 InextensibleOperators::InextensibleOperators(const Discretisation& discretisation, FlowOperators flow) {
   const Space& space = *discretisation.space();
-  if (space.n_vesicles > 1) throw std::invalid_argument("tensions are found for one vesicle alone");
-  Stopwatch watch;
+  if (space.n_vesicles > 1) throw std::invalid_argument("the tension can be computed for one vesicle only");
   const int degree = discretisation.degree();
   const auto elements = std::make_shared<const TensionElements>(*space.mesh, degree, degree - 1);
   const bool constant_is_determined = elements->variation_of_curvature() > least_variation;
@@ -184,8 +182,8 @@ InextensibleOperators::InextensibleOperators(const Discretisation& discretisatio
                                  static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(space.communicator))};
   TensionPreconditioner preconditioner(*elements, viscosities.inside[0], viscosities.outside, !constant_is_determined,
                                        share);
-  data_ = std::make_shared<const Data>(
-      Data{std::move(flow), elements, constant_is_determined, std::move(preconditioner), watch.lap()});
+  data_ =
+      std::make_shared<const Data>(Data{std::move(flow), elements, constant_is_determined, std::move(preconditioner)});
 }
 
 InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, const FlowProblem& problem,
@@ -196,7 +194,6 @@ InextensibleFlow solve_inextensible_flow(const Discretisation& discretisation, c
 
 InextensibleFlow solve_inextensible_flow(const InextensibleOperators& operators, const FlowProblem& problem,
                                          const InextensibleFlow* start) {
-  Stopwatch watch;
   const InextensibleOperators::Data& set_up = operators.data();
   const StokesSystem stokes = system_for(set_up.flow, problem);
   const Space& space = stokes.space();
@@ -205,7 +202,6 @@ InextensibleFlow solve_inextensible_flow(const InextensibleOperators& operators,
   const BlockPreconditioners blocks{stokes, system, set_up.preconditioner};
   const DiagonalPreconditioner measure{blocks};
   Cost cost;
-  cost.seconds_assembly = set_up.flow.data().seconds + set_up.seconds;
 
   const Blocks load = stokes.load(problem.force, problem.gradient);
   Blocks b = system.zero();
@@ -225,13 +221,12 @@ InextensibleFlow solve_inextensible_flow(const InextensibleOperators& operators,
   if (!std::isfinite(size)) throw SolveError("the right-hand side of the inextensible flow is not finite");
   if (size > 0.0) {
     const double goal = residual_for(problem.tolerance, *elements, set_up.constant_is_determined) * size;
-    const double left = generalised_minimal_residuals(system, measure, TriangularPreconditioner{blocks}, b, x, goal,
-                                                      cost.iterations, "inextensible flow");
-    cost.solver_error = left / size;
+    const double residual = generalised_minimal_residuals(system, measure, TriangularPreconditioner{blocks}, b, x, goal,
+                                                          cost.iterations, "inextensible flow");
+    cost.solver_error = residual / size;
   } else {
     x = 0.0;
   }
-  cost.seconds_solve = watch.lap();
 
   const Vector tension = stokes.functional_unit() / space.length * system.tension_of(x);
   Eigen::MatrixX3d force(space.trace->size(), 3);

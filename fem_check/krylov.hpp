@@ -50,8 +50,8 @@ double corrected(const Operator& a, const Measure& measure, const VectorType& b,
   while (size > goal) {
     if (steps >= most_iterations) {
       std::ostringstream message;
-      message << "minimal residuals of the " << what << " stopped at the residual " << size << " after " << steps
-              << " iterations; asked for " << goal;
+      message << "the linear solver of the " << what << " stopped at a residual of " << size << " after " << steps
+              << " iterations; required: " << goal;
       throw SolveError(message.str());
     }
     VectorType correction(x);

@@ -38,7 +38,8 @@ void require_valid(const PotentialProblem& problem) {
     const auto& charging = std::get<ChargingMembrane>(problem.membrane);
     require(all_positive(charging.capacitance), "membrane capacitance must be positive");
     require(none_negative(charging.conductance), "membrane conductance is negative");
-    require(charging.time_step > 0.0 && charging.steps >= 1, "charging takes a positive time step and number of steps");
+    require(charging.time_step > 0.0 && charging.steps >= 1,
+            "time step and number of steps of charging must be positive");
     require(bool(charging.initial), "the initial transmembrane potential is missing");
   }
 }

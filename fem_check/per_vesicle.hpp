@@ -23,7 +23,7 @@ class PerVesicle {
   std::vector<Value> values_;
 };
 
-/// Values f(number) for so many vesicles.
+/// The values f(0), …, f(n_vesicles − 1).
 template <typename Function>
 auto per_vesicle(int n_vesicles, const Function& of_vesicle) {
   std::vector<decltype(of_vesicle(0))> values;

@@ -24,9 +24,9 @@ class PotentialEquations {
         unit_(data.problem.conductivity_out * space_.length),
         multigrid_(space_, fixed_nodes(data.problem, space_.n_vesicles),
                    {over_outside(1.0, data.problem.conductivity_in), 1.0, over_outside(space_.length, membrane_),
-                    radiates() ? dipole_coefficient : 0.0},
+                    has_exterior_field() ? dipole_coefficient : 0.0},
                    Multigrid::Finest::solves) {
-    if (radiates()) {
+    if (has_exterior_field()) {
       const Stiffness& finest = multigrid_.finest();
       Eigen::MatrixXd matrix = exterior_potential(data.problem.exterior_degree, dipole_coefficient);
       if (const std::optional<meshes::Wall>& wall = space_.mesh->wall()) {
@@ -103,7 +103,9 @@ class PotentialEquations {
   /// −R ∂u/∂r over u of a dipole; the preconditioner uses it for every field on the outer sphere.
   static constexpr double dipole_coefficient = 2.0;
 
-  [[nodiscard]] bool radiates() const { return data_.problem.outer.kind == OuterCondition::Kind::radiation; }
+  [[nodiscard]] bool has_exterior_field() const {
+    return data_.problem.outer.kind == OuterCondition::Kind::exterior_field;
+  }
   /// Whether the inside conducts better than the outside.
   [[nodiscard]] bool conducts_better(int vesicle) const {
     return data_.problem.conductivity_in[vesicle] > data_.problem.conductivity_out;
@@ -219,9 +221,7 @@ std::shared_ptr<PotentialData> data_of(const Discretisation& discretisation, con
   data->space = discretisation.space();
   data->problem = problem;
   data->constant.assign(static_cast<std::size_t>(data->space->n_vesicles), 0.0);
-  data->cost.n_cells = discretisation.n_cells();
   data->cost.n_unknowns = discretisation.n_nodes();
-  data->cost.seconds_setup = data->space->seconds_setup;
   return data;
 }
 
@@ -250,10 +250,8 @@ PotentialSolution solve_potential(const Discretisation& discretisation, const Po
   const MembraneTrace& trace = *space.trace;
   const SurfacePoints& rule = trace.rule();
   Cost& cost = data->cost;
-  Stopwatch watch;
 
   PotentialEquations equations(*data);
-  cost.seconds_assembly = watch.lap();
   if (start != nullptr) equations.begin_from(start->data());
   if (const auto* charging = std::get_if<ChargingMembrane>(&problem.membrane)) {
     Vector voltage = charging->initial(rule);
@@ -271,7 +269,6 @@ PotentialSolution solve_potential(const Discretisation& discretisation, const Po
   data->voltage = trace.project(trace.integrate(membrane_voltage(*data, rule)));
   data->current = equations.current();
 
-  cost.seconds_solve = watch.lap();
   cost.peak_memory_bytes = peak_memory_bytes();
   return PotentialSolution(data);
 }
@@ -286,10 +283,8 @@ ChargingSteps::ChargingSteps(const Discretisation& discretisation, const Potenti
   auto& charging = std::get<ChargingMembrane>(complete.membrane);
   charging.initial = [](const SurfacePoints& points) { return Vector(Vector::Zero(points.size())); };
   charging.steps = 1;
-  Stopwatch watch;
   const std::shared_ptr<PotentialData> data = data_of(discretisation, complete);
   implementation_.reset(new Implementation{data, PotentialEquations(*data)});
-  data->cost.seconds_assembly = watch.lap();
 }
 
 ChargingSteps::~ChargingSteps() = default;
@@ -300,11 +295,9 @@ Vector ChargingSteps::step(const Vector& from, const Vector3& field) {
   if (from.size() != rule().size()) throw std::invalid_argument("V_m of a step is not given at the points of the rule");
   PotentialData& data = *implementation_->data;
   const auto& charging = std::get<ChargingMembrane>(data.problem.membrane);
-  Stopwatch watch;
   data.problem.field = field;
   implementation_->equations.take_field();
   implementation_->equations.solve(stored_current(charging, rule(), from));
-  data.cost.seconds_solve += watch.lap();
   data.cost.peak_memory_bytes = peak_memory_bytes();
   return membrane_voltage(data, rule());
 }

@@ -44,11 +44,11 @@ using MembraneCondition = std::variant<PrescribedJump, SteadyMembrane, ChargedMe
 struct OuterCondition {
   /// Which condition holds.
   enum class Kind {
-    radiation,  ///< ∂ψ/∂r of the exterior field: exact for harmonics up to the exterior degree
-    dirichlet,  ///< ψ given
-    neumann     ///< ∂ψ/∂r given
+    exterior_field,  ///< ∂ψ/∂r of the exterior field: exact for harmonics up to the exterior degree
+    dirichlet,       ///< ψ given
+    neumann          ///< ∂ψ/∂r given
   };
-  Kind kind = Kind::radiation;
+  Kind kind = Kind::exterior_field;
   std::function<double(const Vector3&)> value;  ///< absent: zero
 };
 

@@ -19,8 +19,8 @@ struct Session::Implementation {
 };
 
 Session::Session() {
-  // A single process of Open MPI 4 needs neither a daemon nor a folder. Processes share this folder, which one that
-  // ends may remove just when another has made it. Ranks have the folder of their mpirun.
+  // A single process of Open MPI 4 needs neither a daemon nor a folder. All processes of a user
+  // share this folder; one that ends may remove it just after another has created it. Ranks have that of their mpirun.
   ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   ::setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   implementation_.reset(new Implementation);

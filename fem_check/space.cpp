@@ -32,7 +32,7 @@ unsigned face_of(const std::array<UnitPoint, 4>& corners) {
       return 2 * d + (first > 0.5 ? 1 : 0);
     }
   }
-  throw std::logic_error("four vertices of a cell that are no face of it");
+  throw std::logic_error("four vertices that do not form a face of the cell");
 }
 
 void create_triangulation(Space& space) {
@@ -134,7 +134,6 @@ Space::Space(std::shared_ptr<const meshes::VolumeMesh> volume_mesh, int degree, 
       mapping(static_cast<unsigned>(degree + 1)),
       element(static_cast<unsigned>(degree)),
       n_vesicles(mesh->n_vesicles()) {
-  Stopwatch watch;
   require_supported(*mesh, degree);
   create_triangulation(*this);
   fill_mapping(*this);
@@ -142,7 +141,6 @@ Space::Space(std::shared_ptr<const meshes::VolumeMesh> volume_mesh, int degree, 
   dofs.reinit(triangulation);
   dofs.distribute_dofs(element);
   trace = std::make_shared<MembraneTrace>(*this, std::max(degree + 2, points_per_edge));
-  seconds_setup = watch.lap();
 }
 
 meshes::Point Space::mesh_unit(unsigned cell, const UnitPoint& unit) const {
@@ -294,13 +292,6 @@ std::vector<double> edge_nodes(unsigned degree) {
 
 std::vector<dealii::Polynomials::Polynomial<double>> edge_polynomials(unsigned degree) {
   return dealii::Polynomials::generate_complete_Lagrange_basis(dealii::QGaussLobatto<1>(degree + 1).get_points());
-}
-
-double Stopwatch::lap() {
-  const double now = MPI_Wtime();
-  const double seconds = now - start_;
-  start_ = now;
-  return seconds;
 }
 
 std::size_t peak_memory_bytes() {

@@ -68,7 +68,6 @@ struct Space {
   std::vector<Vectors> mapping_nodes;         ///< of every cell, in deal.II's order, dimensionless
   std::vector<dealii::BoundingBox<3>> boxes;  ///< of the mapping nodes
   std::shared_ptr<const MembraneTrace> trace;
-  double seconds_setup = 0.0;
 };
 
 /// Unit coordinates of a point of a membrane face, given the corners of the face.
@@ -115,14 +114,5 @@ std::vector<double> edge_nodes(unsigned degree);
 std::vector<dealii::Polynomials::Polynomial<double>> edge_polynomials(unsigned degree);
 
 std::size_t peak_memory_bytes();
-
-/// Seconds since construction or the last call.
-class Stopwatch {
- public:
-  double lap();
-
- private:
-  double start_ = MPI_Wtime();
-};
 
 }  // namespace vehd::fem_check

@@ -58,7 +58,6 @@ class Stiffness : public dealii::Subscriptor {
 
   [[nodiscard]] const dealii::DoFHandler<3>& handler() const { return handler_; }
   [[nodiscard]] const Constraints& constraints() const { return constraints_; }
-  [[nodiscard]] const SheetPairs& pairs() const { return pairs_; }
   [[nodiscard]] const OuterSphere& outer() const { return outer_; }
   [[nodiscard]] const SurfaceTerms& surface() const { return *surface_; }
   [[nodiscard]] const ScalarForm& form() const { return form_; }

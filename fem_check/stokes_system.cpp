@@ -17,11 +17,11 @@ namespace {
 /// component.
 Fixed fixed_nodes(bool wall) { return {.tie = Tie::inner_follows_outer, .wall = wall}; }
 /// −p n + μ ∂u/∂r = −(4μ/R) u for a stresslet; the preconditioner uses it for every flow on the outer sphere.
-constexpr double kOuterCoefficient = 4.0;
+constexpr double stresslet_coefficient = 4.0;
 
 void require_valid(const Discretisation& discretisation, const Viscosities& viscosities) {
   if (discretisation.degree() < 2) {
-    throw std::invalid_argument("the flow takes elements of degree 2 at least, the discretisation has degree " +
+    throw std::invalid_argument("the degree of the velocity must be at least 2, not " +
                                 std::to_string(discretisation.degree()));
   }
   std::vector<double> all = viscosities.inside.values();
@@ -56,7 +56,7 @@ SurfaceTerms outer_terms(const Stiffness& diffusion, double contrast_outside) {
           diffusion.handler(),
           diffusion.constraints(),
           sphere.dofs(),
-          kOuterCoefficient * sphere.mass(),
+          stresslet_coefficient * sphere.mass(),
           std::move(couplings)};
 }
 
@@ -114,7 +114,7 @@ struct StokesSystem::Implementation {
   std::vector<InnerPressure> inner_pressures;
 
   Implementation(std::shared_ptr<const Space> where, const Viscosities& viscosities, WallFlow wall_flow);
-  [[nodiscard]] ScalarForm diffusion_form() const { return {ratio, 1.0, 0.0, kOuterCoefficient}; }
+  [[nodiscard]] ScalarForm diffusion_form() const { return {ratio, 1.0, 0.0, stresslet_coefficient}; }
   /// Adds the rotations of one vesicle.
   void add_rotations(const StokesSystem& system, int vesicle);
   void find_rotation_energies(const StokesSystem& system);
@@ -228,9 +228,9 @@ std::shared_ptr<const HarmonicTerms> StokesSystem::exterior_terms(int exterior_d
   const std::optional<meshes::Wall>& wall = space().mesh->wall();
   Eigen::MatrixXd matrix;
   if (wall && implementation_->wall == WallFlow::no_slip) {
-    matrix = exterior_flow_at_rest_on_wall(exterior_degree, kOuterCoefficient, wall->normal);
+    matrix = exterior_flow_at_rest_on_wall(exterior_degree, stresslet_coefficient, wall->normal);
   } else {
-    matrix = exterior_flow(exterior_degree, kOuterCoefficient);
+    matrix = exterior_flow(exterior_degree, stresslet_coefficient);
     if (wall) {
       matrix = continued(matrix, Matrix3::Identity() - 2.0 * wall->normal * wall->normal.transpose(), wall->normal);
     }

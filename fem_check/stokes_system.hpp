@@ -77,8 +77,6 @@ class StokesSystem {
 
 struct FlowOperators::Data {
   StokesSystem system;  ///< with the usual exterior fields
-  int degree;           ///< of the velocity
-  double seconds;       ///< time of the set-up
 };
 
 /// The system of the operators with the exterior degree of the problem.

@@ -13,7 +13,7 @@ constexpr unsigned most_steps = 200;
 constexpr double reduction = 1e-16;
 
 /// Three components per node of a nodal field, contiguous.
-using NodalValues = dealii::Vector<double>;
+using NodalValues = dealii::LinearAlgebra::distributed::Vector<double>;
 
 }  // namespace
 

@@ -66,26 +66,23 @@ using ScalarOnSurface = std::function<Vector(const SurfacePoints&)>;
 using VectorOnSurface = std::function<Vectors(const SurfacePoints&)>;
 
 /// Largest degree of the spherical harmonics on the outer sphere for which the exterior condition is exact. The error
-/// from the next degree is reduced by (a/R)^17 at a membrane that reaches out to a, R the radius of the sphere.
+/// from the next degree is reduced by (a/R)^17 for a flow and (a/R)^19 for a potential at a membrane that reaches out
+/// to a, R the radius of the sphere.
 constexpr int usual_exterior_degree = 8;
 
 /// Cost of a solution. Peak memory is that of the process on this rank until the end of the solution.
 struct Cost {
-  int n_cells = 0;
   long n_unknowns = 0;
   int iterations = 0;
   /// Residual over right-hand side in the norm of the preconditioner: approximately the relative error in the energy
   /// norm that the linear solver leaves.
   double solver_error = 0.0;
-  double seconds_setup = 0.0;  ///< triangulation, mapping and numbering
-  double seconds_assembly = 0.0;
-  double seconds_solve = 0.0;  ///< including the preconditioner
   std::size_t peak_memory_bytes = 0;
 };
 
-/// ‖a − b‖/‖b‖ in L2(γ) of values [components x points].
+/// ‖a − b‖/‖b‖ in L2(γ) of a vector field, [components x points], or a scalar field, [points] or [1 x points].
 double relative_l2(const SurfacePoints& points, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-/// max |a − b| / max |b| over the points, of values [components x points].
+/// max |a − b| / max |b| over the points, |·| the Euclidean norm of a vector.
 double relative_max(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 }  // namespace vehd::fem_check

@@ -12,7 +12,7 @@ namespace vehd::meshes {
 /// little more than stretched spheres; a bowl folds the map.
 class BlendedMap final : public BlockMap {
  public:
-  /// @throws MeshError if the outer sphere does not hold the shape
+  /// @throws MeshError if the outer sphere does not enclose the shape
   BlendedMap(const FrozenShape& shape, const BlockAxes& axes, double outer_radius, double core_fraction);
 
   [[nodiscard]] Matrix3 derivative(const Block& block, const Point& reference) const override;

@@ -17,7 +17,7 @@ BlockMap::BlockMap(const FrozenShape& shape, const BlockAxes& axes, double outer
   const double reach = shape.largest_distance(centre_);
   if (!(outer_radius > reach)) {
     throw MeshError(
-        fmt::format("outer radius {:.6g} does not hold the membrane, which reaches {:.6g} from its centroid "
+        fmt::format("outer radius {:.6g} does not enclose the membrane, which reaches {:.6g} from its centroid "
                     "({:.6g}, {:.6g}, {:.6g})",
                     outer_radius, reach, centre_.x(), centre_.y(), centre_.z()));
   }

@@ -20,7 +20,7 @@ class BlockMap {
   static constexpr double kMembrane = 1.0;
   static constexpr double kOuter = 2.0;
 
-  /// @throws MeshError if the outer sphere does not hold the shape
+  /// @throws MeshError if the outer sphere does not enclose the shape
   BlockMap(const FrozenShape& shape, const BlockAxes& axes, double outer_radius);
   virtual ~BlockMap() = default;
   BlockMap(const BlockMap&) = delete;

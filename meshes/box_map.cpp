@@ -114,7 +114,7 @@ BoxMap::BoxMap(const std::vector<FrozenShape>& shapes, const std::vector<FrozenS
   const double reach = 0.5 * (high - low).norm();
   if (!(outer_radius_ > reach)) {
     throw MeshError(fmt::format(
-        "outer radius {:.6g} does not hold the boxes about the membranes, which reach {:.6g} from their middle "
+        "outer radius {:.6g} does not enclose the boxes about the membranes, which reach {:.6g} from their middle "
         "({:.6g}, {:.6g}, {:.6g})",
         outer_radius_, reach, centre_.x(), centre_.y(), centre_.z()));
   }

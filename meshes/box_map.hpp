@@ -39,10 +39,10 @@ struct BoxOptions {
 /// in the middle of the face, and blend into the point of g towards its edges, so that narrow gaps are resolved.
 class BoxMap {
  public:
-  /// @throws MeshError if no plane separates the shapes, or if the outer sphere does not hold the boxes
+  /// @throws MeshError if no plane separates the shapes, or if the outer sphere does not enclose the boxes
   BoxMap(const std::array<FrozenShape, 2>& shapes, const BoxOptions& options);
   /// @param like  the shape that determines A
-  /// @throws MeshError if the shape crosses the wall, or if the outer sphere does not hold the boxes
+  /// @throws MeshError if the shape crosses the wall, or if the outer sphere does not enclose the boxes
   BoxMap(const FrozenShape& shape, const FrozenShape& like, const Wall& wall, const BoxOptions& options);
 
   /// Middle of both boxes.

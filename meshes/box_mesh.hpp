@@ -46,14 +46,15 @@ class BoxMesh final : public VolumeMesh {
   std::shared_ptr<const BoxMap> map_;
 };
 
-/// @throws MeshError if no plane separates the shapes, if the outer sphere does not hold the boxes about them, or if an
+/// @throws MeshError if no plane separates the shapes, if the outer sphere does not enclose the boxes about them, or if
+/// an
 ///         element is inverted or too flat
 /// @throws std::invalid_argument if an option is out of range
 /// Accuracy: points of membranes and outer sphere to 1e-13, neighbouring cells meet to 1e-13
 /// (tests/meshes/two_vesicle_mesh_test.cpp)
 BoxMesh make_two_vesicle_mesh(const std::array<FrozenShape, 2>& shapes, const BoxMeshOptions& options = {});
 
-/// @throws MeshError if the shape crosses the wall, if the outer sphere does not hold the boxes, or if an element is
+/// @throws MeshError if the shape crosses the wall, if the outer sphere does not enclose the boxes, or if an element is
 ///         inverted or too flat
 /// @throws std::invalid_argument if an option is out of range
 /// Accuracy: as make_two_vesicle_mesh, also on the wall (tests/meshes/wall_mesh_test.cpp)

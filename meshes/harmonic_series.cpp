@@ -18,7 +18,8 @@ constexpr int kLanes = 8;
 int degree_of(Index n_coefficients) {
   const int side = static_cast<int>(std::lround(std::sqrt(double(n_coefficients))));
   if (side < 1 || Index{side} * side != n_coefficients) {
-    throw std::invalid_argument(fmt::format("{} harmonic coefficients are no square (degree + 1)²", n_coefficients));
+    throw std::invalid_argument(
+        fmt::format("{} harmonic coefficients: the number must be a square (degree + 1)²", n_coefficients));
   }
   return side - 1;
 }

@@ -78,8 +78,6 @@ std::array<double, 8> vertex_functions(CellShape shape, const Point& unit) {
   return result;
 }
 
-Point unit_centre(CellShape shape) { return Point::Constant(shape == CellShape::hexahedron ? 0.5 : 0.25); }
-
 void find_interface(MeshTopology& topology) {
   std::map<std::array<int, 4>, FacePlace> inside;
   for_each_membrane_face(topology, Region::inside,

@@ -57,8 +57,6 @@ const std::array<int, 4>& face_vertices(CellShape shape, int face);
 Point unit_vertex(CellShape shape, int vertex);
 /// Values of the (tri)linear vertex functions at a point of the unit cell; a tetrahedron uses the first 4 entries.
 std::array<double, 8> vertex_functions(CellShape shape, const Point& unit);
-/// Centre of the unit cell.
-Point unit_centre(CellShape shape);
 
 /// Fills `interface` and `interface_vertices` from the faces marked as membrane.
 /// @throws MeshError if a membrane face has no partner on the other side

@@ -139,7 +139,7 @@ bool lower_energy(const Distortion& distortion, const InnerStiffness& stiffness,
 }
 
 /// Remaining displacement of the boundary; zero at inner nodes.
-Nodes way_left(const Lattice& lattice, const Nodes& x, const Nodes& boundary) {
+Nodes remaining_displacement(const Lattice& lattice, const Nodes& x, const Nodes& boundary) {
   Nodes result = Nodes::Zero(3, x.cols());
   for (std::size_t node = 0; node < lattice.nodes().size(); ++node) {
     const auto i = static_cast<Eigen::Index>(node);
@@ -163,7 +163,7 @@ Nodes relaxed_nodes(const Lattice& lattice, const Distortion& distortion, const 
   double part = kFirstPart;
   for (double share = 0.0; share < 1.0;) {
     const double next_share = std::min(1.0, share + part);
-    const Nodes next = x + stiffness.continued(way_left(lattice, x, boundary_at(next_share)));
+    const Nodes next = x + stiffness.continued(remaining_displacement(lattice, x, boundary_at(next_share)));
     if (!(distortion.smallest_determinant(next) >= kLeastSqueeze * smallest)) {
       part *= 0.5;
       if (part > kLeastPart) continue;

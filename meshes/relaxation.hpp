@@ -11,7 +11,6 @@ namespace vehd::meshes {
 /// The boundary is moved from a valid mesh to its final position in increments. After each one the inner nodes first
 /// follow by a linear solve, then Distortion::energy is lowered (L-BFGS, preconditioned by its stiffness). An increment
 /// that would reduce the smallest det F below a fifth is halved, so that no cell is inverted.
-/// cell is ever inverted.
 /// @param start  nodes of a valid mesh, the undistorted one up to a rotation
 /// @param boundary_at  positions of the boundary nodes at a fraction of the path, 0 at `start`, 1 at the end; the other
 ///                     columns are not used

@@ -13,7 +13,7 @@ namespace vehd::meshes {
 class RelaxedMap final : public BlockMap {
  public:
   /// @param blocks  of this shape with these axes
-  /// @throws MeshError if the outer sphere does not hold the shape
+  /// @throws MeshError if the outer sphere does not enclose the shape
   RelaxedMap(const FrozenShape& shape, const BlockAxes& axes, double outer_radius,
              std::shared_ptr<const RelaxedBlocks> blocks);
 

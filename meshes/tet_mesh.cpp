@@ -177,7 +177,7 @@ TetMesh filled_with_curved_tetrahedra(const FrozenShape& shape, const TetMeshOpt
   const double radius = options.outer_radius;
   if (!(radius > reach)) {
     throw MeshError(fmt::format(
-        "outer radius {:.6g} does not hold the membrane, which reaches {:.6g} from its centroid", radius, reach));
+        "outer radius {:.6g} does not enclose the membrane, which reaches {:.6g} from its centroid", radius, reach));
   }
   const double surface_size = options.surface_size * shape.radius();
   const auto size_at_distance = [&](double distance) {

@@ -42,7 +42,8 @@ class VolumeMesh {
   /// Derivative of physical() with respect to the unit coordinates: column j belongs to coordinate j.
   [[nodiscard]] virtual Matrix3 jacobian(int cell, const Point& unit) const = 0;
   /// Unit vector r̂(θ, φ) of a point of a membrane face; fields on γ are evaluated at this (θ, φ).
-  /// @throws std::logic_error if the cell has no membrane face
+  /// @throws std::logic_error in a cell where the mesh defines no direction: the core of a block mesh, a tetrahedron
+  /// without a membrane face
   [[nodiscard]] virtual Point direction(int cell, const Point& unit) const = 0;
 
   /// Positions of all vertices, in the numbering of the topology.
@@ -106,7 +107,7 @@ class HexMesh final : public VolumeMesh {
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options = {});
 
 /// Whether make_block_mesh() relaxes the cells; needed for a bowl, in which straight lines fold.
-/// @throws MeshError if the outer sphere does not hold the shape; std::invalid_argument as make_block_mesh
+/// @throws MeshError if the outer sphere does not enclose the shape; std::invalid_argument as make_block_mesh
 bool cells_have_to_be_relaxed(const FrozenShape& shape, const BlockMeshOptions& options);
 
 /// Meshes of one shape that differ only in the layers of the shell; the relaxation of the inner layers is computed once

@@ -76,7 +76,7 @@ ChargingLevels solve_charging_levels(const CheckInput& input, Meshes& meshes, co
   const Eigen::MatrixXd added = finest - lowest;
   LevelSequence& sequence = result.sequence;
   for (Level& level : sequence.levels) level.surface.at("Vm") += added;
-  for (Level* level : {&sequence.truncated, &sequence.rough}) level->surface.at("Vm") += added;
+  for (Level* level : {&sequence.truncated, &sequence.loose}) level->surface.at("Vm") += added;
   return result;
 }
 

@@ -70,6 +70,7 @@ Refinement refinement_for(const CheckTask& task, const std::vector<CheckInput>& 
   constexpr double share = 0.5;
   refinement.potential_target = std::min(refinement.potential_target, share * task.required);
   refinement.flow_target = std::min(refinement.flow_target, share * task.required);
+  refinement.charging_target = std::min(refinement.charging_target, share * task.required);
   return refinement;
 }
 
@@ -116,7 +117,7 @@ class OneVesicle {
   void keep(LevelSequence& sequence) const {
     for (Level& level : sequence.levels) keep(level);
     keep(sequence.truncated);
-    keep(sequence.rough);
+    keep(sequence.loose);
   }
   void keep(Level& level) const {
     for (auto& [name, values] : level.surface) values = Eigen::MatrixXd(values(Eigen::all, points_));

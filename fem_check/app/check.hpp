@@ -13,7 +13,7 @@
 
 namespace vehd::fem_check {
 
-/// Fields to compare, and the directory of the files.
+/// One check: its input files, output directory and options.
 struct CheckTask {
   std::filesystem::path input;
   std::filesystem::path directory;                      ///< for the files of fields

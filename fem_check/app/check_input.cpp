@@ -55,6 +55,7 @@ std::vector<VesicleGroup> vesicle_groups(const Hdf5Input& file) {
   if (!file.has("/vesicles")) return {{file, ""}};
   std::vector<VesicleGroup> groups;
   const int n = static_cast<int>(file.number("/vesicles", "count"));
+  if (n < 1) file.refuse(fmt::format("has {} vesicles; accepted: 1 or more", n));
   for (int k = 0; k < n; ++k) groups.emplace_back(file, fmt::format("/vesicles/{:02}", k));
   return groups;
 }

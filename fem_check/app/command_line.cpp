@@ -90,8 +90,9 @@ int run_program(int argc, char** argv) {
   const CLI::Option* required =
       check_command->add_option("--require", check_task.required, "Largest error of a field over the field")
           ->check(CLI::Range(1e-9, 1.0));
-  check_command->add_option("--further", check_task.further_inputs,
-                            "Inputs of the same state with other numbers, judged as well; for the JSON");
+  check_command->add_option(
+      "--further", check_task.further_inputs,
+      "Further inputs of the same state, compared with the same solutions; results go to the JSON");
   check_command->add_flag("--quick", check_task.quick, "Coarse elements");
   check_command->add_option("--json", json_file, "Also write the result as JSON");
 

@@ -15,8 +15,8 @@ namespace {
 constexpr double rounding = 1e-9;
 /// Error left by a solver tolerance, over its value if errors decreased like residuals.
 constexpr double solver_factor = 10.0;
-/// Error left by a solver tolerance, over the change when the tolerance is made rough_factor times larger.
-constexpr double solver_share = solver_factor / rough_factor;
+/// Error left by a solver tolerance, over the change when the tolerance is made loose_factor times larger.
+constexpr double solver_share = solver_factor / loose_factor;
 /// Lowest order of convergence in the mesh size that is assumed for levels.
 constexpr double slowest_order = 1.0;
 /// If levels differ by more than this fraction of the field, the observed order is not used.
@@ -129,9 +129,9 @@ void compare_with_levels(const FieldQuestion& question, const LevelSequence& seq
   const Level& repeated = sequence.levels[static_cast<std::size_t>(sequence.repeated)];
   const Eigen::MatrixXd truncated = values_of(question, sequence.truncated);
   if (truncated.size() > 0) result.truncation = measure(truncated - values_of(question, repeated));
-  const Eigen::MatrixXd rough = values_of(question, sequence.rough);
-  if (rough.size() > 0) {
-    result.solver = solver_share * measure(rough - values_of(question, repeated)).l2;
+  const Eigen::MatrixXd loose = values_of(question, sequence.loose);
+  if (loose.size() > 0) {
+    result.solver = solver_share * measure(loose - values_of(question, repeated)).l2;
   }
   result.solver += measure.share_of(question.natural_size * question.solver_magnification * sequence.tolerance);
   if (values.size() < 3) return;

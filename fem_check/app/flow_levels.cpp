@@ -100,7 +100,7 @@ void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSe
   before.surface["velocity_own_force"] =
       before.surface.at("velocity") + coarse + flows.velocity(first, electric_change);
   Level& repeated = sequence.levels[static_cast<std::size_t>(sequence.repeated)];
-  for (Level* level : {&sequence.truncated, &sequence.rough, &repeated}) {
+  for (Level* level : {&sequence.truncated, &sequence.loose, &repeated}) {
     level->surface["velocity_own_force"] = level->surface.at("velocity") + fine;
   }
 }

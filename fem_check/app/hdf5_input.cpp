@@ -75,10 +75,6 @@ Eigen::MatrixXd Hdf5Input::matrix(const std::string& dataset) const {
   return values;
 }
 
-Eigen::MatrixXd Hdf5Input::matrix_or_empty(const std::string& dataset) const {
-  return has(dataset) ? matrix(dataset) : Eigen::MatrixXd();
-}
-
 bool Hdf5Input::has_attribute(const std::string& object, const std::string& attribute) const {
   return H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT) > 0;
 }

@@ -24,8 +24,6 @@ class Hdf5Input {
   [[nodiscard]] bool has(const std::string& object) const;
   /// Dataset [components, n] as [n x components]; a dataset [n] gives one column.
   [[nodiscard]] Eigen::MatrixXd matrix(const std::string& dataset) const;
-  /// matrix(), [n x components], or an empty matrix if there is no such dataset.
-  [[nodiscard]] Eigen::MatrixXd matrix_or_empty(const std::string& dataset) const;
   [[nodiscard]] bool has_attribute(const std::string& object, const std::string& attribute) const;
   [[nodiscard]] double number(const std::string& object, const std::string& attribute) const;
   [[nodiscard]] std::string text(const std::string& object, const std::string& attribute) const;

@@ -43,8 +43,8 @@ struct SolveSettings {
 /// Smallest tolerance of the linear solvers for a flow that is a small correction of another one.
 constexpr double tolerance_of_changes = 1e-4;
 
-/// Tolerance of LevelSequence::rough over that of the levels.
-constexpr double rough_factor = 100.0;
+/// Tolerance of LevelSequence::loose over that of the levels.
+constexpr double loose_factor = 100.0;
 /// Exterior degree of LevelSequence::truncated: two below that of the levels, since shapes with a centre of symmetry
 /// have only every second harmonic.
 constexpr int truncated_exterior_degree = usual_exterior_degree - 2;
@@ -56,7 +56,7 @@ struct LevelSequence {
   double tolerance = 0.0;  ///< of the linear solvers
   int repeated = 0;        ///< index of the repeated level
   Level truncated;         ///< repetition with truncated_exterior_degree
-  Level rough;             ///< repetition with a tolerance larger by rough_factor
+  Level loose;             ///< repetition with a tolerance larger by loose_factor
 };
 
 }  // namespace vehd::fem_check

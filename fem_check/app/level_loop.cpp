@@ -61,8 +61,8 @@ LevelSequence run_levels(const LevelPlan& plan, Meshes& meshes, const Report& re
   const int degree = levels[static_cast<std::size_t>(result.repeated)].degree;
   result.truncated = solve_level_with(plan.problem + " with fewer harmonics outside", degree,
                                       {plan.tolerance, truncated_exterior_degree});
-  result.rough = solve_level_with(plan.problem + " with a coarse solver", degree,
-                                  {.tolerance = rough_factor * plan.tolerance, .from_zero = true});
+  result.loose = solve_level_with(plan.problem + " with a looser solver tolerance", degree,
+                                  {.tolerance = loose_factor * plan.tolerance, .from_zero = true});
   return result;
 }
 

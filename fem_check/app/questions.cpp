@@ -18,7 +18,7 @@ std::vector<bool> found_by_all(const LevelSequence& sequence, const std::string&
   };
   for (const Level& level : sequence.levels) look_at(level);
   look_at(sequence.truncated);
-  look_at(sequence.rough);
+  look_at(sequence.loose);
   return found;
 }
 

@@ -117,7 +117,7 @@ std::string legend_of(const CheckResult& result, const std::vector<Row>& rows) {
       "  undecided: it is within them, but the error that is named is larger than {0:.3g}\n",
       result.required);
   if (any([](const FieldComparison& field) { return field.judge == Judge::boundary_integrals; })) {
-    text += "  *: judged by boundary integrals alone, which solve again; no finite element has a part in it\n";
+    text += "  *: compared with a new solution by boundary integrals, not with finite elements\n";
   }
   if (any([](const FieldComparison& field) { return !field.counts(); })) {
     text += "  (...): does not count, as the row of the work of this force is judged in its place\n";
@@ -151,7 +151,9 @@ std::string further_lines(const CheckResult& result) {
   }
   if (result.divergence) {
     text += fmt::format(
-        "{}surface divergence of v as the elements see it: {:.1e} of the strain rate (levels differ by {:.1e})\n",
+        "{}surface divergence of the finite-element velocity: {:.1e} of the strain rate (change from the previous "
+        "level: "
+        "{:.1e})\n",
         result.name.empty() ? "" : result.name + ": ", result.divergence->size.l2, result.divergence->levels_change.l2);
   }
   for (const CheckResult& vesicle : result.vesicles) text += further_lines(vesicle);

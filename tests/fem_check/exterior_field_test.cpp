@@ -149,12 +149,12 @@ BOOST_AUTO_TEST_CASE(error_of_a_truncated_expansion_falls_with_the_radius) {
     return std::abs(-value[0] / 0.5 * (1.0 + kDepolarisation * 19.0) - 1.0);
   };
   using Kind = OuterCondition::Kind;
-  const double near = error(3.0, Kind::radiation, 1), far = error(4.5, Kind::radiation, 1);
+  const double near = error(3.0, Kind::exterior_field, 1), far = error(4.5, Kind::exterior_field, 1);
   BOOST_TEST(observed_order(near, far, 1.5) > 5.0);
   const double near_fixed = error(3.0, Kind::dirichlet, 1), far_fixed = error(4.5, Kind::dirichlet, 1);
   BOOST_TEST(std::abs(observed_order(near_fixed, far_fixed, 1.5) - 3.0) < 0.6);
   BOOST_TEST(near < 0.1 * near_fixed);
-  BOOST_TEST(error(3.0, Kind::radiation, 3) < 0.2 * near);
+  BOOST_TEST(error(3.0, Kind::exterior_field, 3) < 0.2 * near);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(flat_elements_and_small_outer_spheres_are_errors) {
   BOOST_CHECK_EXCEPTION(require_quality(quality(ball, off_centre_sphere()), 0.6), MeshError, too_flat);
   BlockMeshOptions options = coarse();
   options.outer_radius = 1.9;
-  BOOST_TEST(mesh_error(prolate(), options).find("outer radius 1.9 does not hold") != std::string::npos);
+  BOOST_TEST(mesh_error(prolate(), options).find("outer radius 1.9 does not enclose") != std::string::npos);
   options = coarse();
   options.shell_layers = 0;
   BOOST_CHECK_THROW(make_block_mesh(prolate(), options), std::invalid_argument);

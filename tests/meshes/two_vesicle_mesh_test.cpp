@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(pairs_that_cannot_be_meshed_are_refused) {
   BOOST_TEST(mesh_error({shapes[0], shapes[0]}).find("no plane separates the two membranes") == 0);
   BoxMeshOptions options;
   options.boxes.outer_radius = 3.0;
-  BOOST_TEST(mesh_error(shapes, options).find("outer radius 3 does not hold the boxes") == 0);
+  BOOST_TEST(mesh_error(shapes, options).find("outer radius 3 does not enclose the boxes") == 0);
   options.boxes.outer_radius = 12.0;
   options.box_layers = 0;
   BOOST_CHECK_THROW(make_two_vesicle_mesh(shapes, options), std::invalid_argument);

@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(mesh_does_not_depend_on_unit_or_place) {
 BOOST_AUTO_TEST_CASE(walls_that_cannot_be_meshed_are_refused) {
   const FrozenShape shape = asymmetric();
   BOOST_TEST(mesh_error(shape, wall_at(shape, -0.3)).find("the membrane reaches 0.") == 0);
-  BOOST_TEST(mesh_error(shape, wall_at(shape, 0.3), options_of(2, 3.0)).find("outer radius 3 does not hold") == 0);
+  BOOST_TEST(mesh_error(shape, wall_at(shape, 0.3), options_of(2, 3.0)).find("outer radius 3 does not enclose") == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -33,7 +33,7 @@ LevelSequence levels() {
   LevelSequence sequence;
   sequence.levels = {level(100 * fine_error, 1000), level(10 * fine_error, 8000), level(fine_error, 64000)};
   sequence.truncated = level(100 * fine_error, 1000);
-  sequence.rough = level(100 * fine_error + solver_error, 1000);
+  sequence.loose = level(100 * fine_error + solver_error, 1000);
   return sequence;
 }
 
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(zero_is_judged_by_the_natural_size) {
   BOOST_TEST((verdict(zero) == Verdict::disagree), "the elements have a field");
   zero.natural_size = 1e6;
   LevelSequence rounded = levels();
-  for (Level* each : {&rounded.levels[0], &rounded.levels[1], &rounded.levels[2], &rounded.truncated, &rounded.rough}) {
+  for (Level* each : {&rounded.levels[0], &rounded.levels[1], &rounded.levels[2], &rounded.truncated, &rounded.loose}) {
     each->surface["q"].setZero();
   }
   BOOST_TEST((compare(zero, rounded, {0.02}).verdict == Verdict::agree));
@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(undecided_force_does_not_count_beside_its_work) {
 // At a conductivity ratio of 1e7 a residual of 1e-11 left an error of 5 % in q.
 BOOST_AUTO_TEST_CASE(error_of_the_linear_solver_is_measured) {
   LevelSequence sequence = levels();
-  sequence.rough = level(0.5, 1000);
+  sequence.loose = level(0.5, 1000);
   const FieldComparison result = compare(question(), sequence, {0.02});
   BOOST_TEST(result.solver > 0.04);
   BOOST_TEST((result.verdict == Verdict::undecided));
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(background_does_not_hide_the_disturbance) {
   FieldQuestion asked = question();
   const Eigen::MatrixXd background = Eigen::MatrixXd::Constant(1, 50, 1e5);
   LevelSequence shifted = levels();
-  for (Level* each : {&shifted.levels[0], &shifted.levels[1], &shifted.levels[2], &shifted.truncated, &shifted.rough}) {
+  for (Level* each : {&shifted.levels[0], &shifted.levels[1], &shifted.levels[2], &shifted.truncated, &shifted.loose}) {
     each->surface["q"] += background;
   }
   for (Eigen::MatrixXd* numbers : {&asked.judged, &asked.bie, &asked.bie_high}) *numbers = 1.01 * *numbers + background;
@@ -292,7 +292,7 @@ BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
   const auto with_errors = [](double coarse, double middle, double fine) {
     LevelSequence sequence = levels();
     sequence.levels = {level(coarse, 1000), level(middle, 2000), level(fine, 4000)};
-    sequence.truncated = sequence.rough = sequence.levels.front();
+    sequence.truncated = sequence.loose = sequence.levels.front();
     return compare(question(), sequence, {0.02});
   };
   const FieldComparison far = with_errors(0.8, 0.45, 0.26);
@@ -313,7 +313,7 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_includes_the_difference_to_the_
     asked.bie_high = field(1.0 - other_error);
     asked.degrees = {degree, other, {}};
     LevelSequence exact = levels();
-    for (Level* each : {&exact.levels[0], &exact.levels[1], &exact.levels[2], &exact.truncated, &exact.rough}) {
+    for (Level* each : {&exact.levels[0], &exact.levels[1], &exact.levels[2], &exact.truncated, &exact.loose}) {
       each->surface["q"] = field();
     }
     return compare(asked, exact, {0.05});

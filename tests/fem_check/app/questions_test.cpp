@@ -32,7 +32,7 @@ LevelSequence levels_without(double share, const CheckInput& input, const Surfac
   level.surface["flux_in"] = -(input.physics.capacitance * (1.0 - share) + 3.0) * points.direction.row(2);
   LevelSequence sequence;
   sequence.levels = {level, level};
-  sequence.truncated = sequence.rough = level;
+  sequence.truncated = sequence.loose = level;
   return sequence;
 }
 
