@@ -230,7 +230,7 @@ function(install_packages)
   message(STATUS "Installing: ${names}")
   message(STATUS "with:       ${command}")
   set(log "${build}/installing.log")
-  message(STATUS "which takes minutes; what it says: ${log}")
+  message(STATUS "this takes minutes; output: ${log}")
   file(MAKE_DIRECTORY "${build}")
   execute_process(COMMAND ${as_root} env DEBIAN_FRONTEND=noninteractive ${apt} update -q
                   OUTPUT_FILE "${log}" ERROR_FILE "${log}" RESULT_VARIABLE status)

@@ -85,7 +85,9 @@ void add_output_options(CLI::App& command, BenchOptions& options) {
 
 CLI::Option* add_repeats(CLI::App& command, BenchOptions& options, int repeats) {
   options.repeats = repeats;
-  return command.add_option("--repeats", options.repeats, "Of each timing, fewer of long ones; the median counts")
+  return command
+      .add_option("--repeats", options.repeats,
+                  "Repetitions of each timing, fewer of long ones; the median is reported")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
 }

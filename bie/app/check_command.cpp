@@ -86,16 +86,13 @@ void add_check_command(CLI::App& program, ExitCode& exit_code) {
       ->type_name("DIR");
   command->add_flag("--quick", options->quick, "Coarse finite elements: 5 to 20 s of processor time for smooth shapes");
   command
-      ->add_option(
-          "--require", options->required,
-          "Largest relative error of either method in any field with which they may agree; 0.02 if left out, 0.05 with "
-          "--quick")
+      ->add_option("--require", options->required,
+                   "Largest relative error of either method with which a row may agree; 0.02 if not given, 0.05 with "
+                   "--quick")
       ->check(number_in(1e-9, 1.0));
   command
-      ->add_option(
-          "--ranks", options->ranks,
-          "MPI processes of the finite elements; as many as other programs leave processors, eight at most, if "
-          "left out")
+      ->add_option("--ranks", options->ranks,
+                   "MPI processes of the finite elements; if not given, one for each free processor, at most eight")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--no-plot", options->no_plot, "Draw no picture");
   add_threads_option(*command);

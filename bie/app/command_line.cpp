@@ -55,7 +55,7 @@ std::string problem_of_output(const CLI::App& command, const CLI::Option& output
     for (const std::string& value : other->results()) {
       std::error_code ignored;
       if (std::filesystem::is_regular_file(value, ignored) && std::filesystem::equivalent(file, value, ignored)) {
-        return fmt::format("{} is {} as well, which it would replace", file, other->get_name());
+        return fmt::format("{} is also given as {}; writing the result would overwrite it", file, other->get_name());
       }
     }
   }

@@ -97,15 +97,14 @@ void print(const RunPlan& plan) {
   fmt::print("absent     {}\n", fmt::join(plan.absent, ", "));
   fmt::print("symmetry   {}\n", plan.symmetry);
   const std::string jumps = plan.n_jumps == 0 ? "" : fmt::format(", one more at each jump ({})", plan.n_jumps);
-  const char* of = plan.vesicles.empty() ? "" : " of each vesicle";
-  fmt::print("operators  ({} kernel evaluations each at every new shape{}, {} a step{})\n", plan.kernel_evaluations, of,
-             plan.shapes_per_step, jumps);
+  const char* of = plan.vesicles.empty() ? "" : ", vesicle";
+  fmt::print("operators  ({} kernel evaluations per operator{} and shape; {} shapes a step{})\n",
+             plan.kernel_evaluations, of, plan.shapes_per_step, jumps);
   for (const PlannedOperator& op : plan.operators) fmt::print("  {:<22} {}\n", op.name, op.why);
   if (const std::size_t n = plan.vesicles.size(); n > 1) {
     const auto targets = [&](const char* way) { return plan.pair_targets.at(way); };
     fmt::print(
-        "pairs      {}, layers of one vesicle on another: at the start {} nodes by rows, {} by sums, {} by "
-        "expansions\n",
+        "pairs      {}: at the start {} targets by near quadrature, {} by direct sums, {} by multipole expansions\n",
         n * (n - 1), targets("near"), targets("far"), targets("expanded"));
   }
   fmt::print("unknowns   {} a step\n", plan.unknowns);

@@ -39,7 +39,7 @@ PlotTask task_of(const PlotOptions& options) {
 /// Draws the shapes only, into a file of this name.
 PlotResult plot_file(const PlotOptions& options, const PlotTask& task, PictureFormat format) {
   if (!options.format.empty() && task.format != format) {
-    throw InputError(fmt::format("--format {}: -o {} is of another", options.format, options.output));
+    throw InputError(fmt::format("--format {}: -o {} has another extension", options.format, options.output));
   }
   const auto folder = task.output.parent_path();
   if (!folder.empty()) make_directory(folder);
@@ -128,13 +128,14 @@ void add_plot_command(CLI::App& program, ExitCode& exit_code) {
                    "of flow and field if not given")
       ->type_name("VIEW");
   command
-      ->add_option("--field", options->style.field,
-                   "Colours of the shapes; V_m, without it the tension, if not given; force: its magnitude")
+      ->add_option(
+          "--field", options->style.field,
+          "Field that colours the shapes; force: its magnitude. If not given, V_m, or the tension if there is no V_m")
       ->type_name("FIELD")
       ->check(CLI::IsMember(field_names));
   command->add_flag("--section", options->style.section,
                     "Leave out the half towards the eye: the cut and the inside of the membrane show");
-  command->add_option("--format", options->format, "Of the pictures; png if not given")
+  command->add_option("--format", options->format, "Format of the pictures; png if not given")
       ->type_name("FORMAT")
       ->check(CLI::IsMember(std::vector<std::string>(picture_formats.begin(), picture_formats.end())));
   command->add_flag("--movie", options->movie, "Also write movie.mp4, a picture for each snapshot; needs ffmpeg");

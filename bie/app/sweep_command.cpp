@@ -81,7 +81,8 @@ void print_count(const SweepCount& count, const PreparedSweep& sweep) {
   add(count.refused, "refused");
   add(count.crashed, "crashed");
   add(count.unfinished, "unfinished");
-  fmt::print("{}; {} of computing\ntable: {}\n", text, duration_text(count.seconds), sweep.paths.table().string());
+  fmt::print("{}; total computing time {}\ntable: {}\n", text, duration_text(count.seconds),
+             sweep.paths.table().string());
 }
 
 ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
@@ -109,7 +110,7 @@ ExitCode emit_slurm(const SweepOptions& options, const PreparedSweep& sweep) {
   task.account = options.account;
   task.partition = options.partition;
   if (!options.prologue.empty()) task.prologue = text_of_file(options.prologue) + "\n";
-  task.predicted = fmt::format("{} runs, predicted to take {} together and {} the longest of them", sweep.runs.size(),
+  task.predicted = fmt::format("{} runs; predicted computing time {} in total, {} for the longest", sweep.runs.size(),
                                duration_text(total), duration_text(longest));
   replace_shared_file(sweep.paths.slurm_script(), slurm_script(task));
   fmt::print("{}\n{} jobs of {} min\nscript: {}\n", task.predicted, task.n_members, options.minutes,
@@ -172,7 +173,8 @@ void add_sweep_command(CLI::App& program, ExitCode& exit_code) {
                    "With --emit: time limit of each job; a job with unfinished runs is queued again")
       ->type_name("N")
       ->check(CLI::Range(1, 60 * 24 * 30))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(emit);
   command->add_option("--account", options->account, "With --emit: account that pays for the jobs")
       ->type_name("NAME")
       ->needs(emit);

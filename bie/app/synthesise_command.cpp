@@ -82,7 +82,7 @@ void add_synthesise_command(CLI::App& program, ExitCode& exit_code) {
   command->add_option("--noise", synthesis.noise, "Standard deviation of each value, as in 0.01 or \"2 mV\"")
       ->type_name("SIZE")
       ->required();
-  command->add_option("--seed", synthesis.seed, "Of the noise")
+  command->add_option("--seed", synthesis.seed, "Seed of the noise")
       ->type_name("N")
       ->check(CLI::Validator(
           [](const std::string& text) { return text.starts_with('-') ? text + " is below 0" : std::string(); }, ""))
@@ -92,7 +92,7 @@ void add_synthesise_command(CLI::App& program, ExitCode& exit_code) {
                    "A value at the end of a run for each of these, in place of one at each snapshot, as in "
                    "\"electric.waveform.frequency=1 kHz,10 kHz\"")
       ->type_name("TABLE.KEY=VALUES");
-  command->add_option("--angles", synthesis.n_angles, "Of a contour, evenly spaced; 64 if not given")
+  command->add_option("--angles", synthesis.n_angles, "Number of evenly spaced angles of a contour; 64 if not given")
       ->type_name("N")
       ->check(CLI::Range(1, 10000));
   command

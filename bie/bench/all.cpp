@@ -116,23 +116,26 @@ class AllBenches {
           task_.quick ? "; a trial, not for comparison" : "",
           result.repeats == 1 ? "one run each" : fmt::format("medians of up to {} repeats", result.repeats));
       if (put_table(task_.docs, name, text) > 0) wanted_.erase(name);
-      keep_picture(name);
+      if (task_.output.plot) copy_if_shown(task_.output.directory / (name + ".png"), "bench_" + name + ".png");
     }
   }
 
-  /// Replaces the picture of a table on the pages that show it.
-  void keep_picture(const std::string& name) {
-    const std::string picture = "bench_" + name + ".png";
-    if (!task_.output.plot || !pages_mention(task_.docs, "images/" + picture)) return;
+  /// Replaces a picture of the pages, if any page shows it.
+  void copy_if_shown(const fs::path& picture, const std::string& name) {
+    if (!pages_mention(task_.docs, "images/" + name)) return;
     std::error_code error;
-    fs::copy_file(task_.output.directory / (name + ".png"), task_.docs / "images" / picture,
-                  fs::copy_options::overwrite_existing, error);
-    if (error) observer_.warn(fmt::format("no new picture of {}: {}", name, error.message()));
+    fs::copy_file(picture, task_.docs / "images" / name, fs::copy_options::overwrite_existing, error);
+    if (error) observer_.warn(fmt::format("no new picture {}: {}", name, error.message()));
   }
 
   void scenes() {
     observer_.section("every scene");
-    keep(bench_scenes(scenes_, task_.docs / "images", observer_));
+    const fs::path pictures = task_.output.directory / "scenes";
+    make_directory(pictures);
+    keep(bench_scenes(scenes_, pictures, observer_));
+    for (const auto& picture : fs::directory_iterator(pictures)) {
+      copy_if_shown(picture.path(), picture.path().filename().string());
+    }
   }
 
   void space() {

@@ -129,8 +129,8 @@ BenchTable families_table(const BenchTable& rows) {
                    {{"family", "family", "{}"},
                     {"cases", "cases"},
                     {"criterion", "nearest criterion", "{}"},
-                    {"case", "of", "{}"},
-                    {"worst", "worst", "{:.2g}"},
+                    {"case", "case", "{}"},
+                    {"worst", "value", "{:.2g}"},
                     {"bound", "bound", "{:.2g}"}}};
   const auto family = [&](std::size_t row) { return std::get<std::string>(cell_of(rows, row, "family")); };
   const auto share = [&](std::size_t row) {

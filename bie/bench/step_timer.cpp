@@ -85,8 +85,9 @@ Scene with_fixed_steps(Scene scene, const std::string& bench) {
 }
 
 void require_ascending(const std::string& option, const std::vector<int>& values) {
-  if (std::is_sorted(values.begin(), values.end())) return;
-  throw InputError(fmt::format("{}: {} after a higher one; accepted: ascending", option, values.back()));
+  const auto wrong = std::ranges::is_sorted_until(values);
+  if (wrong == values.end()) return;
+  throw InputError(fmt::format("{}: {} after a higher one; accepted: ascending", option, *wrong));
 }
 
 }  // namespace vehd

@@ -1,4 +1,4 @@
-# What vehd is built with. All that is not found is said at once, with the Debian packages that hold it, and written to
+# What vehd is built with. All missing dependencies are reported at once, with their Debian packages, and written to
 # missing_packages.txt of the build folder, where bie/setup.cmake reads it.
 set(missing_names)
 set(missing_packages)
@@ -39,7 +39,7 @@ if(VEHD_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   target_compile_options(OpenMP::OpenMP_CXX INTERFACE -fopenmp=libgomp -Wno-unused-variable -Wno-unused-parameter)
   target_link_options(OpenMP::OpenMP_CXX INTERFACE -fopenmp=libgomp)
 else()
-  # Every supported compiler brings it along, clang in a package of its own.
+  # Every supported compiler includes OpenMP, clang in a separate package.
   vehd_need(libomp-dev OpenMP)
 endif()
 
@@ -99,7 +99,7 @@ if(missing_names)
   list(JOIN missing_packages " " packages)
   message(FATAL_ERROR "Not found: ${names}.\n"
                       "On Debian and Ubuntu: apt-get install ${packages}\n"
-                      "Elsewhere: docs/installation.md. What stands in a place of its own is found by "
+                      "Elsewhere: docs/installation.md. Libraries in other locations are found with "
                       "-DCMAKE_PREFIX_PATH=...")
 endif()
 file(REMOVE "${missing_file}")

@@ -6,8 +6,8 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "simulator of lipid vesicles in flow and e
 set(CPACK_PACKAGE_DESCRIPTION
     "vehd simulates lipid vesicles, which are membranes that bend, keep their local
 area and charge like leaky capacitors, in viscous flow and electric field. It
-solves boundary integral equations by spherical harmonics and draws what it
-finds. Scenes are written in TOML, dimensionless or in SI units.")
+solves boundary integral equations by spherical harmonics and plots the
+results. Scenes are written in TOML, dimensionless or in SI units.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_GENERATOR DEB)
 set(CPACK_STRIP_FILES ON)

@@ -47,7 +47,7 @@ void keep_evaluated(CheckSamples& samples, CheckFields& a, CheckFields& b) {
       fields->sample_velocity = Matrix(fields->sample_velocity(known, Eigen::all));
     std::vector<bool> sides;
     for (const Index i : known) sides.push_back(fields->is_inside[static_cast<std::size_t>(i)]);
-    if (!fields->is_inside.empty()) fields->is_inside = std::move(sides);
+    fields->is_inside = std::move(sides);
   }
 }
 
@@ -73,12 +73,13 @@ namespace {
 
 /// Each rank without a processor of its own slows all others down, as they wait for it at every step of a solve.
 int n_ranks(const CheckTask& task) {
+  if (task.n_ranks) return *task.n_ranks;
   // The coarse mesh has a few hundred cells: with more processes each would have too few.
   constexpr int most = 8;
   const int usable = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most);
   std::string load;
   std::getline(std::ifstream("/proc/loadavg"), load);
-  return task.n_ranks.value_or(free_processors(load, static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN)), usable));
+  return free_processors(load, static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN)), usable);
 }
 
 /// Runs the finite-element program, which solves the problem in the file and compares.

@@ -31,7 +31,7 @@ struct CheckTask {
 /// @param quick  one and a half times `order`, at most 28, but at least two higher
 int estimate_order(int order, bool quick);
 
-/// Processors that other programs leave, in a single-threaded moment of this one.
+/// Processors that other programs leave free, while this one runs a single thread, which the load includes.
 /// @param load        text of /proc/loadavg; anything else counts as an idle machine
 /// @param processors  of the machine
 /// @param most        number that this process may use

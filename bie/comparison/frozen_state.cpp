@@ -38,10 +38,10 @@ void require_outward(const std::string& what, const Matrix& position) {
   const Vector& area = surface.area_element;
   const double volume = enclosed_volume(surface);
   if (area.allFinite() && !(area.minCoeff() > 0.0)) {
-    throw InputError(fmt::format("{} is no surface: its area element vanishes somewhere", what));
+    throw InputError(fmt::format("{} is not a surface: its area element vanishes somewhere", what));
   }
   if (!area.allFinite() || !std::isfinite(volume)) {
-    throw InputError(fmt::format("{} is too large: its area or its volume is no finite number", what));
+    throw InputError(fmt::format("{} is too large: its area or its volume is not finite", what));
   }
   if (volume > 0.0) return;
   throw InputError(fmt::format(
@@ -55,17 +55,17 @@ bool is_scene(const std::filesystem::path& file) { return file.extension() == ".
 }
 
 /// The finite-element side supports one vesicle beside a wall, which must act on the flow and the field of the scene.
-void require_known_wall(const Scene& scene, const std::filesystem::path& file) {
+void require_known_wall(const Scene& scene, const std::filesystem::path& file, const std::string& who) {
   if (!scene.wall) return;
-  if (n_vesicles(scene) > 1) refuse(file, "has two vesicles and a wall; vehd check accepts one of them beside a wall");
+  if (n_vesicles(scene) > 1) refuse(file, "has two vesicles and a wall; " + who + " accepts one vesicle beside a wall");
   const Model model = model_of(scene);
   if (model.mobile && model.wall->flow == WallFlow::none) {
     refuse(file,
-           "has a wall that does not touch the flow; vehd check accepts \"flow\" no-slip or stress-free in [wall]");
+           "has a wall without effect on the flow; " + who + " accepts \"flow\" no-slip or stress-free in [wall]");
   }
   if (model.electric && model.wall->field == WallField::none) {
     refuse(file,
-           "has a wall that does not touch the field; vehd check accepts \"field\" insulating or electrode in [wall]");
+           "has a wall without effect on the field; " + who + " accepts \"field\" insulating or electrode in [wall]");
   }
 }
 
@@ -78,7 +78,7 @@ void require_known_effects(const Scene& scene, const std::filesystem::path& file
   for (const Scene& one : each_alone(scene)) {
     if (one.membrane.bending_by_place || one.membrane.curvature_by_place) {
       refuse(file,
-             "has a spatially varying bending modulus; vehd check accepts [membrane] without "
+             "has a spatially varying bending modulus or spontaneous curvature; vehd check accepts [membrane] without "
              "\"bending_by_place\" and \"curvature_by_place\"");
     }
     if (one.membrane.capacitance_by_place && has_relaxing_charge(one)) {
@@ -140,7 +140,7 @@ struct FrozenSource {
       scene = parse_scene(run->scene(), file.string() + " (scene)", file.parent_path());
       require_same_vesicles(*run, scene);
     }
-    require_known_wall(scene, file);
+    require_known_wall(scene, file, who);
   }
   FrozenSource(const FrozenSource&) = delete;
   FrozenSource& operator=(const FrozenSource&) = delete;

@@ -71,10 +71,11 @@ class CopyCheck {
     const Matrix stored = stored_.matrix(path), expected = expected_.matrix(path);
     if (stored.rows() != expected.rows() || stored.cols() != expected.cols()) refuse(path, "has another shape");
     const double largest = is_phase(path) ? 180.0 : expected.cwiseAbs().maxCoeff();
+    const Vector weights = weights_of(path, expected.size());
     for (Index i = 0; i < expected.size(); ++i) {
       double difference = stored.reshaped()[i] - expected.reshaped()[i];
       if (is_phase(path)) difference = std::remainder(difference, 360.0);
-      if (!(std::abs(difference) * weight(path, i) <= rounding_ * largest)) {
+      if (!(std::abs(difference) * weights[i] <= rounding_ * largest)) {
         refuse(path, fmt::format("has {:.17g} in place of {:.17g}", stored.reshaped()[i], expected.reshaped()[i]));
       }
     }
@@ -83,11 +84,11 @@ class CopyCheck {
   static bool is_phase(const std::string& path) { return path.ends_with("_phase_deg"); }
 
   /// A phase has no accuracy where its amplitude vanishes.
-  [[nodiscard]] double weight(const std::string& path, Index i) const {
-    if (!is_phase(path)) return 1.0;
+  [[nodiscard]] Vector weights_of(const std::string& path, Index size) const {
+    if (!is_phase(path)) return Vector::Ones(size);
     const std::string amplitude = path.substr(0, path.rfind("_phase_deg")) + "_amplitude";
     const Vector sizes = expected_.vector(amplitude);
-    return sizes[i] / sizes.maxCoeff();
+    return sizes / sizes.maxCoeff();
   }
 
   const Hdf5Reader& stored_;

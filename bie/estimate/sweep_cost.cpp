@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "bie/estimate/cost.hpp"
 
@@ -27,7 +28,7 @@ struct CostedPlan {
 }  // namespace
 
 SweepCost predicted_cost(const std::vector<SweepRun>& runs) {
-  std::map<std::string, CostedPlan> costs;
+  std::map<std::string, std::optional<CostedPlan>> costs;  // none where the prediction fails
   SweepCost result{std::vector<double>(runs.size(), 0.0)};
   std::vector<std::size_t> unknown;
   double total = 0.0, n_known = 0.0;
@@ -39,13 +40,17 @@ SweepCost predicted_cost(const std::vector<SweepRun>& runs) {
     if (!costs.contains(name)) {
       RunPlan costed = plan;
       predict_cost(scene, costed);
-      if (!costed.stops.empty() || !costed.unknown.empty()) {
-        unknown.push_back(i);
-        continue;
+      if (costed.stops.empty() && costed.unknown.empty()) {
+        costs[name] = CostedPlan{costed, scene.numerics.end_time};
+      } else {
+        costs[name] = std::nullopt;
       }
-      costs[name] = {costed, scene.numerics.end_time};
     }
-    const CostedPlan& cost = costs.at(name);
+    if (!costs.at(name)) {
+      unknown.push_back(i);
+      continue;
+    }
+    const CostedPlan& cost = *costs.at(name);
     const double steps = scene.numerics.tolerance
                              ? static_cast<double>(cost.plan.n_steps) / cost.end_time * scene.numerics.end_time
                              : static_cast<double>(plan.n_steps);

@@ -100,7 +100,7 @@ Hdf5Reader::Hdf5Reader(const std::string& image, std::string name) : name_(std::
 void Hdf5Reader::require_open() {
   if (!file_.valid()) {
     const std::string detail = last_hdf5_error();
-    refuse(fmt::format("no readable HDF5 file, it is truncated, damaged or of another kind ({})", detail));
+    refuse(fmt::format("not a readable HDF5 file: truncated, damaged or of another kind ({})", detail));
   }
   H5Fget_filesize(file_.id(), &bytes_);
 }
@@ -142,7 +142,7 @@ Hdf5Reader::OpenDataset Hdf5Reader::open_dataset(const std::string& dataset) con
   for (const hsize_t extent : result.extents) {
     // Checked before each product so that it cannot overflow.
     if (extent == 0 || result.n_values > stored / extent) {
-      refuse(fmt::format("dataset {} stores {} numbers, less than its size says", dataset, stored));
+      refuse(fmt::format("dataset {} claims more numbers than the file stores", dataset));
     }
     result.n_values *= extent;
   }
@@ -155,7 +155,7 @@ Hdf5Reader::OpenDataset Hdf5Reader::open_dataset(const std::string& dataset) con
 Hdf5Reader::OpenDataset Hdf5Reader::open_numbers(const std::string& dataset) const {
   OpenDataset result = open_dataset(dataset);
   if (!is_kind(result.type.id(), H5T_FLOAT, sizeof(double))) {
-    refuse(fmt::format("dataset {} holds no double-precision numbers", dataset));
+    refuse(fmt::format("dataset {} does not contain double-precision numbers", dataset));
   }
   return result;
 }
@@ -180,7 +180,7 @@ std::string Hdf5Reader::text(const std::string& dataset) const {
   if (!type.valid() || H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) > 0 ||
       H5Sget_simple_extent_npoints(space.id()) != 1 || H5Dget_storage_size(handle.id()) < H5Tget_size(type.id()) ||
       bytes_ < H5Tget_size(type.id())) {
-    refuse(fmt::format("{} is no text of fixed length", dataset));
+    refuse(fmt::format("{} is not a text of fixed length", dataset));
   }
   if (H5Tget_size(type.id()) > longest_text) {
     refuse(fmt::format("text {} has {} bytes; accepted: at most {}", dataset, H5Tget_size(type.id()), longest_text));

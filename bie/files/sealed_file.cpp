@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "bie/support/checksum.hpp"
@@ -9,9 +10,6 @@
 
 namespace vehd {
 namespace {
-
-/// Fifty times the size of a checkpoint of degree 64; anything larger is some other file.
-constexpr std::uintmax_t largest_bytes = std::uintmax_t{1} << 26;
 
 std::string seal_of(const std::string& content) {
   Checksum checksum;
@@ -30,18 +28,18 @@ std::string read_sealed_file(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) refuse("no such file");
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error || size > largest_bytes) {
-    refuse(fmt::format("{} bytes are too many; accepted: at most {}", size, largest_bytes));
-  }
-  std::string text(size, '\0');
+  if (error) refuse("cannot be read: " + error.message());
+  // The seal is read first, because any other file may be of any size.
+  std::string seal(seal_of({}).size(), '\0');
+  const std::uintmax_t text_size = size - std::min<std::uintmax_t>(size, seal.size());
   std::ifstream stream(path, std::ios::binary);
-  if (!stream.read(text.data(), static_cast<std::streamsize>(size))) refuse("cannot be read");
-  const std::size_t seal_size = seal_of({}).size();
-  if (size < seal_size || text.find("\nvehd seal ", size - seal_size) != size - seal_size) {
+  stream.seekg(static_cast<std::streamoff>(text_size));
+  if (!stream.read(seal.data(), static_cast<std::streamsize>(seal.size())) || !seal.starts_with("\nvehd seal ")) {
     refuse("has no seal at its end: it is truncated, damaged or of another schema version");
   }
-  const std::string seal = text.substr(size - seal_size);
-  text.resize(size - seal_size);
+  std::string text(text_size, '\0');
+  stream.seekg(0);
+  if (!stream.read(text.data(), static_cast<std::streamsize>(text_size))) refuse("cannot be read");
   if (seal != seal_of(text)) refuse("is damaged: its bytes do not match their checksum");
   return text;
 }

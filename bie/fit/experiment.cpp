@@ -91,7 +91,7 @@ std::string dimension_of(const Scene& scene, const std::string& quantity, const 
   if (found != columns.end()) return std::string(found->dimension);
   std::vector<std::string_view> names{contour_quantity};
   for (const HistoryColumn& column : columns) names.push_back(column.name);
-  throw InputError(fmt::format("{}: \"quantity\" is \"{}\", which history.csv of the scene has not; {}", place,
+  throw InputError(fmt::format("{}: \"quantity\" is \"{}\", which history.csv of the scene does not have; {}", place,
                                shortened(quantity), suggestion(quantity, names)));
 }
 

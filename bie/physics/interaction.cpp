@@ -243,9 +243,9 @@ struct Interaction::Parts {
   }
 
   /// For each membrane of this rank, the nodes (or mirrored nodes) at which its layers are needed.
-  /// @param serves  (target, source): is this pair needed?
-  template <class Serves>
-  [[nodiscard]] std::vector<std::vector<NearNodes>> find_near(const Serves& is_needed) const {
+  /// @param is_needed  (target, source): is this pair needed?
+  template <class IsNeeded>
+  [[nodiscard]] std::vector<std::vector<NearNodes>> find_near(const IsNeeded& is_needed) const {
     std::vector<std::vector<NearNodes>> near(n());
     for (std::size_t b = 0; b < n(); ++b) {
       if (!partition.is_local(b)) continue;
@@ -372,7 +372,6 @@ PairCounts Interaction::counts() const {
       if (!layers) continue;
       all.far += layers->counts().far;
       all.near += layers->counts().near;
-      all.far_nodes += layers->counts().far_nodes;
     }
   }
   if (parts_->expansions) all.expanded = parts_->expansions->n_targets();

@@ -7,11 +7,11 @@
 
 namespace vehd {
 
-/// Bending energy kappa_B ∫ H² dA, force Eq. (2).
+/// Bending energy κ_B ∫ H² dA, force Eq. (2).
 /// The usual Helfrich modulus is κ_c = κ_B/2; unit energy.
 /// Source: paper Eq. (2)
 struct BendingParameters {
-  double modulus = 0.0;  ///< kappa_B
+  double modulus = 0.0;  ///< κ_B
   bool operator==(const BendingParameters&) const = default;
 };
 
@@ -36,9 +36,9 @@ struct FlowParameters {
 
 /// Uniform field at infinity and the fluid outside the vesicles.
 struct AppliedField {
-  Vector3 field = Vector3::Zero();    ///< E_inf when the waveform is 1
-  double conductivity = 1.0;          ///< sigma_e
-  double permittivity = 1.0;          ///< epsilon outside
+  Vector3 field = Vector3::Zero();    ///< E_∞ when the waveform is 1
+  double conductivity = 1.0;          ///< σ_e
+  double permittivity = 1.0;          ///< ε_e
   Waveform waveform{};                ///< of the field
   bool displacement_current = false;  ///< in both fluids
   /// Frequency of a field that alternates so fast that only the mean of its force over a period matters; the waveform
@@ -52,19 +52,19 @@ struct AppliedField {
 
 /// The leaky dielectric inside one vesicle.
 struct InnerDielectric {
-  double conductivity = 1.0;        ///< sigma_i
-  double permittivity_ratio = 1.0;  ///< epsilon inside over outside
+  double conductivity = 1.0;        ///< σ_i
+  double permittivity_ratio = 1.0;  ///< ε_i/ε_e
   bool operator==(const InnerDielectric&) const = default;
 };
 
 /// Leaky-dielectric bulk fluids on both sides of one membrane in a uniform applied field, Eq. (4).
 /// Source: paper Eqs. (3), (4)
 struct ElectricParameters {
-  Vector3 field = Vector3::Zero();             ///< E_inf when the waveform is 1
-  double conductivity_in = 1.0;                ///< sigma_i
-  double conductivity_out = 1.0;               ///< sigma_e
-  double permittivity = 1.0;                   ///< epsilon outside
-  double permittivity_ratio = 1.0;             ///< epsilon inside over outside
+  Vector3 field = Vector3::Zero();             ///< E_∞ when the waveform is 1
+  double conductivity_in = 1.0;                ///< σ_i
+  double conductivity_out = 1.0;               ///< σ_e
+  double permittivity = 1.0;                   ///< ε_e
+  double permittivity_ratio = 1.0;             ///< ε_i/ε_e
   Waveform waveform{};                         ///< of the field
   bool displacement_current = false;           ///< in both fluids
   std::optional<double> averaged_frequency{};  ///< see AppliedField

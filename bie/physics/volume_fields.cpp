@@ -32,8 +32,6 @@ PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& pos
   samples.potential = layers.laplace_single.values - layers.laplace_double.values - points * sources.field;
   samples.field = layers.laplace_double_gradient.values - layers.laplace_single_gradient.values;
   samples.field.rowwise() += sources.field.transpose();
-  samples.potential_error = layers.laplace_single.error + layers.laplace_double.error;
-  samples.field_error = layers.laplace_single_gradient.error + layers.laplace_double_gradient.error;
   if (sources.wall && has_image(*sources.wall, PairLayer::laplace_single)) {
     const Wall& wall = *sources.wall;
     const OffSurfaceValues there = of_membrane.evaluate(mirrored(wall, points), Side::exterior, instruments);
@@ -42,8 +40,6 @@ PotentialSamples potential_at(const Matrix& points, Side side, const Matrix& pos
     const Matrix field = there.laplace_double_gradient.values - there.laplace_single_gradient.values;
     samples.potential += mirrored_back(wall, PairLayer::laplace_single, potential);
     samples.field += mirrored_back(wall, PairLayer::laplace_single, field) * wall.mirror();
-    samples.potential_error += there.laplace_single.error + there.laplace_double.error;
-    samples.field_error += there.laplace_single_gradient.error + there.laplace_double_gradient.error;
   }
   samples.side = std::move(layers.side);
   samples.distance = std::move(layers.distance);
@@ -89,14 +85,10 @@ VelocitySamples velocity_at(const Matrix& points, const Matrix& position, const 
   if (sources.wall && has_image(*sources.wall, PairLayer::stokes_single)) {
     samples.velocity += flow_of_image(*sources.wall, points, position, sources, instruments);
   }
-  samples.velocity_error = layers.stokes_single.error / sources.viscosity;
   if (ratio != 1.0) {
     samples.velocity += (1.0 - ratio) * layers.stokes_double.values;
-    samples.velocity_error += std::abs(1.0 - ratio) * layers.stokes_double.error;
     for (Index i = 0; i < points.rows(); ++i) {
-      if (layers.side[i] != Side::interior) continue;
-      samples.velocity.row(i) /= ratio;
-      samples.velocity_error[i] /= ratio;
+      if (layers.side[i] == Side::interior) samples.velocity.row(i) /= ratio;
     }
   }
   samples.side = std::move(layers.side);

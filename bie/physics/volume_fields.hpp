@@ -21,8 +21,6 @@ struct PotentialSources {
 struct PotentialSamples {
   Vector potential;        ///< φ, [n_points]
   Matrix field;            ///< E = −∇φ, [n_points x 3]
-  Vector potential_error;  ///< estimate of the quadrature error, absolute
-  Vector field_error;
   std::vector<Side> side;  ///< of the membrane on which each point lies
   Vector distance;         ///< from the membrane, see OffSurfaceValues
 };
@@ -51,8 +49,7 @@ struct VelocitySources {
 
 /// The velocity at points off the membrane.
 struct VelocitySamples {
-  Matrix velocity;        ///< [n_points x 3]
-  Vector velocity_error;  ///< estimate of the quadrature error, absolute
+  Matrix velocity;  ///< [n_points x 3]
   std::vector<Side> side;
   Vector distance;
 };

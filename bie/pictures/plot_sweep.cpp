@@ -40,6 +40,7 @@ std::vector<std::size_t> wanted_columns(const SweepPlotTask& task, const SweepRo
     }
     wanted.push_back(static_cast<std::size_t>(found - names.begin()));
   }
+  if (wanted.empty()) throw InputError(fmt::format("{}: has no column to draw", task.paths.table().string()));
   return wanted;
 }
 
@@ -90,7 +91,6 @@ void draw_sweep_lines(const SweepPlotTask& task, const SweepRows& rows, const st
   for (std::size_t row = 0; row < rows.n_rows(); ++row) values.push_back(rows.cells[row][0]);
   const SweepRows::Key& key = rows.keys.front();
   const SweepAxis x = axis_of_values(key.name, values, key.is_logarithmic);
-  if (columns.empty()) throw InputError(fmt::format("{}: has no column to draw", task.paths.table().string()));
   SweepPanels panels(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
     draw_line_panel(panels.page, rows, columns[i], x, panels.box(i), task.border);

@@ -13,6 +13,7 @@
 #include "bie/pictures/shown_numbers.hpp"
 #include "bie/pictures/sweep_frame.hpp"
 #include "bie/pictures/sweep_map.hpp"
+#include "bie/support/csv.hpp"
 #include "bie/support/errors.hpp"
 #include "bie/support/file_system.hpp"
 
@@ -105,14 +106,16 @@ void write_means(const std::filesystem::path& file, const SweepRows& rows, const
     names.push_back(header);
     names.push_back("standard error");
   }
-  std::string text = fmt::format("{},runs\n", fmt::join(names, ","));
+  names.emplace_back("runs");
+  std::string text = csv_line(names);
   for (std::size_t i = 0; i < means.front().size(); ++i) {
-    for (const std::string& value : means.front()[i].values) {
-      text += value.find(',') == std::string::npos ? value + "," : fmt::format("\"{}\",", value);
+    std::vector<std::string> cells = means.front()[i].values;
+    for (const std::vector<SweepMean>& column : means) {
+      cells.push_back(fmt::format("{:.6g}", column[i].mean));
+      cells.push_back(fmt::format("{:.2g}", column[i].error));
     }
-    for (const std::vector<SweepMean>& column : means)
-      text += fmt::format("{:.6g},{:.2g},", column[i].mean, column[i].error);
-    text += fmt::format("{}\n", means.front()[i].n_runs);
+    cells.push_back(std::to_string(means.front()[i].n_runs));
+    text += csv_line(cells);
   }
   replace_file(file, text);
 }

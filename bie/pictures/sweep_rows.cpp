@@ -30,7 +30,7 @@ SweepRows::SweepRows(const SweepPaths& paths) {
   std::istringstream text(text_of_file(paths.table()));
   for (std::string line; std::getline(text, line);) cells.push_back(csv_cells(line));
   const auto fits = [&](const auto& row) { return row.size() == keys.size() + columns.size() + 4; };
-  if (cells.empty() || !std::ranges::all_of(cells, fits)) refuse(paths.table(), "is no table of this sweep");
+  if (cells.empty() || !std::ranges::all_of(cells, fits)) refuse(paths.table(), "is not a table of this sweep");
   cells.erase(cells.begin());
 }
 
@@ -63,7 +63,7 @@ class CellScale {
     for (std::size_t row = 0; row < rows.n_rows(); ++row) {
       const auto quantity = parse_quantity(rows.cells[row][key]);
       if (!quantity || (row > 0 && quantity->unit != unit_)) {
-        throw InputError(fmt::format("{}: no curve can be drawn over \"{}\", whose values are no numbers of one unit",
+        throw InputError(fmt::format("{}: no curve can be drawn over \"{}\", whose values are not numbers of one unit",
                                      file, key_.name));
       }
       unit_ = quantity->unit;

@@ -79,7 +79,7 @@ Matrix3 parse_view(const std::string& text) {
   }
   if (!stream || !(stream >> std::ws).eof() || !direction.allFinite() || direction.norm() == 0.0) {
     throw InputError(
-        fmt::format("--view: \"{}\" is no direction; accepted: x, y, z or three numbers, as 1,1,0.5", text));
+        fmt::format("--view: \"{}\" is not a direction; accepted: x, y, z or three numbers, as 1,1,0.5", text));
   }
   return view_along(direction);
 }

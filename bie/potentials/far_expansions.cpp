@@ -213,7 +213,7 @@ std::vector<Matrix> FarExpansions::apply(PairLayer layer, const std::vector<Matr
   const double of_single = 1.0 / (4.0 * kPi * scale_);
   const std::array factors{of_single,       of_single / scale_, of_single / scale_, of_single / (scale_ * scale_),
                            0.5 * of_single, of_single / scale_};
-  const double factor = factors[static_cast<std::size_t>(layer)];
+  const double factor = factors.at(static_cast<std::size_t>(layer));
   std::vector<Matrix> values = local(moments, is_stokes(layer));
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t a = 0; a < places_.size(); ++a) {

@@ -40,7 +40,6 @@ class FarRule {
   /// D[1] at targets, [n_targets]: 0 outside, −1 inside, up to the error of the rule.
   /// @param points  [n_targets x 3]
   [[nodiscard]] Vector enclosures(const Matrix& points) const;
-  [[nodiscard]] Index n_nodes() const { return n_nodes_; }
 
  private:
   SphereTransform transform_;

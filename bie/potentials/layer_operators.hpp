@@ -68,13 +68,6 @@ class SymmetricBlocks {
   Vector values_;  ///< columns one after another; entries of the diagonal are halved
 };
 
-/// Densities of S, S′ and the Stokes single layer enter weighted: as coefficients of J f, J = W/sin θ (the area element
-/// on the unit sphere), so that ∫ K f dA = ∫ K (J f) dω. The weighted density of a tangential derivative or of a force
-/// is smoother than the density itself, truncation to degree p keeps its integral exactly, and the kernel rows need no
-/// area element. The densities of D and of the Stokes double layer enter plain, because J n(y) belongs to their
-/// kernels. If a selection is `plain`, J(y) is part of the other kernels as well, so that J f is not truncated to
-/// degree p.
-
 /// Scalar layer operator from coefficients to coefficients of degree p: one matrix for each class of coefficients that
 /// it maps to itself, no coupling between classes. Stored transposed, so that its application reads contiguous columns.
 /// Coefficients outside all classes are not read, and are zero in the result.
@@ -160,6 +153,13 @@ struct LayerSelection {
   bool plain = false;  ///< all densities and values are f, not J f
 };
 
+/// Densities of S, S′ and the Stokes single layer enter weighted: as coefficients of J f, J = W/sin θ (the area element
+/// on the unit sphere), so that ∫ K f dA = ∫ K (J f) dω. The weighted density of a tangential derivative or of a force
+/// is smoother than the density itself, truncation to degree p keeps its integral exactly, and the kernel rows need no
+/// area element. The densities of D and of the Stokes double layer enter plain, because J n(y) belongs to their
+/// kernels. If a selection is `plain`, J(y) is part of the other kernels as well, so that J f is not truncated to
+/// degree p.
+///
 /// Layer operators on the membrane; in plain ones J f is replaced by f. D, S′ and the Stokes double layer are principal
 /// values: the caller adds the side-dependent ±½ density of Eq. (11), so that the side is written where it is chosen.
 /// Values are computed at the nodes of the grid of order p and projected onto degree p.

@@ -209,8 +209,8 @@ struct NearRowMaker {
     for (std::size_t k = 0; k < targets.size(); ++k) {
       if (!(feet[k].height > 0.0)) {
         const Vector3 x = at.point(targets[k]);
-        throw ConvergenceError(fmt::format("({:.6g}, {:.6g}, {:.6g}) is not outside the membrane, by {:.3g}", x[0],
-                                           x[1], x[2], -feet[k].height));
+        throw ConvergenceError(fmt::format("({:.6g}, {:.6g}, {:.6g}) lies inside the membrane, at a depth of {:.3g}",
+                                           x[0], x[1], x[2], -feet[k].height));
       }
       located.push_back({targets[k], feet[k], near_rule(feet[k], order, settings.tolerance, false)});
     }
@@ -282,13 +282,14 @@ struct NearRowMaker {
     Matrix result(at.source.rows(), n * columns.count);
     Exceptions exceptions(n);
     // Targets located together: enough to fill registers, few enough to give work to all threads.
-    constexpr Index kTogether = 16;
-    const Index n_batches = (n + kTogether - 1) / kTogether;
+    constexpr Index kTargetsTogether = 16;
+    const Index n_batches = (n + kTargetsTogether - 1) / kTargetsTogether;
     std::vector<std::vector<NearTarget>> batches(static_cast<std::size_t>(n_batches));
 #pragma omp parallel for schedule(dynamic, 1)
     for (Index i = 0; i < n_batches; ++i) {
       exceptions.keep(i, [&] {
-        batches[i] = locate({near.begin() + i * kTogether, near.begin() + std::min(n, (i + 1) * kTogether)});
+        batches[i] =
+            locate({near.begin() + i * kTargetsTogether, near.begin() + std::min(n, (i + 1) * kTargetsTogether)});
       });
     }
     exceptions.rethrow_first();

@@ -224,7 +224,6 @@ struct PairLayers::Data {
     if (!layers.selected) return;
     for (const auto& [q, targets] : targets_of_order) {
       layers.groups.push_back({rules.of_order(q), targets});
-      counts.far_nodes += static_cast<Index>(targets.size()) * layers.groups.back().rule->n_nodes();
     }
     const Index n_columns = layers.by_rows.columns.count;
     if (n_columns == 0) return;

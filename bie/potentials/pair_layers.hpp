@@ -24,10 +24,9 @@ struct PairSettings {
 
 /// Number of targets by method.
 struct PairCounts {
-  Index far = 0;        ///< by the smooth rule
-  Index near = 0;       ///< by rows of coefficients
-  Index far_nodes = 0;  ///< of all far targets together
-  Index expanded = 0;   ///< by multipole expansions
+  Index far = 0;       ///< by the smooth rule
+  Index near = 0;      ///< by rows of coefficients
+  Index expanded = 0;  ///< by multipole expansions
 };
 
 /// Makes the transforms that layers of membranes of this degree need; all membranes and steps share them.

@@ -119,7 +119,7 @@ Checkpoint continued_from(const RunPaths& run, const Scene& scene, const SceneSo
     }
   }
   if (has_averaged_field(stored) != has_averaged_field(scene)) {
-    comparison.refuse("electric.waveform.average", "V_m of a field that is averaged is no state: keep the value");
+    comparison.refuse("electric.waveform.average", "V_m of an averaged field is not part of the state: keep the value");
   }
   if (scene.numerics.error_bars) {
     throw InputError(

@@ -86,7 +86,8 @@ HistoryTable read_table(const std::filesystem::path& file, ReadingNotes& notes) 
 nlohmann::json read_summary(const std::filesystem::path& file, ReadingNotes& notes) {
   if (!std::filesystem::exists(file)) return nullptr;
   const nlohmann::json summary = nlohmann::json::parse(text_of_file(file), nullptr, false);
-  if (!summary.is_object()) throw InputError(fmt::format("{}: is no JSON object: damaged or altered", file.string()));
+  if (!summary.is_object())
+    throw InputError(fmt::format("{}: is not a JSON object: damaged or altered", file.string()));
   const auto checksum = summary.find(summary_checksum);
   if (checksum == summary.end()) {
     note_unsealed(file, notes);

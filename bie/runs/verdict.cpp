@@ -182,7 +182,7 @@ std::optional<std::string> narrow_gap(const HistoryTable& history) {
     if (!worst_row || degree[i] > degree[*worst_row]) worst_row = i;
   }
   if (!first) return std::nullopt;
-  return fmt::format("{} needs more than the degree {:g} since time {} (worst {:.0f})",
+  return fmt::format("{} needs a higher degree than {:g} since time {} (up to {:.0f})",
                      history.has("smallest_gap") ? "smallest_gap" : "gap_wall", order[*first],
                      history.time_text(history.column("time")[*first]), degree[*worst_row]);
 }
@@ -197,7 +197,7 @@ std::optional<std::string> rejections(const HistoryTable& history) {
     return std::nullopt;
   }
   const auto first = std::ranges::find_if(rejected, fails) - rejected.begin();
-  return fmt::format("rejected before {} of {} steps since time {}", count, n_steps,
+  return fmt::format("attempts failed before {} of {} steps, first at time {}", count, n_steps,
                      history.time_text(history.column("time")[static_cast<std::size_t>(first)]));
 }
 

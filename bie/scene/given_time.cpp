@@ -11,7 +11,7 @@ std::string problem_of_time(const std::string& text) {
   const Dimension& dimension = *find_dimension("time");
   const auto quantity = parse_quantity(text);
   if (quantity && (quantity->unit.empty() || dimension.find(quantity->unit) != nullptr)) return {};
-  return fmt::format("\"{}\" is no time; accepted: a number, or one with a unit ({}), as \"0.5 ms\"", text,
+  return fmt::format("\"{}\" is not a time; accepted: a number, or one with a unit ({}), as \"0.5 ms\"", text,
                      dimension.accepted());
 }
 

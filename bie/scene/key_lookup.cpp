@@ -79,7 +79,7 @@ std::vector<const KeyDescription*> keys_named(const std::string& name, const std
     throw InputError(
         fmt::format("{}: unknown key \"{}\" of [{}] in {}; {}", place, word, table, where, suggestion(word, of_table)));
   }
-  throw InputError(fmt::format("{}: \"{}\" in {} is no \"table.key\" of a scene; did you mean \"{}\"?", place,
+  throw InputError(fmt::format("{}: \"{}\" in {} is not a \"table.key\" of a scene; did you mean \"{}\"?", place,
                                shortened(name), where, nearest_name(name, {all.begin(), all.end()})));
 }
 

@@ -77,11 +77,12 @@ void add_shape(auto& scene) {
 
 /// Adds the keys of a waveform. @return the table of the alternating kinds, to which the caller may add keys
 auto add_waveform(auto waveform) {
-  waveform.word("kind", &WaveformScene::kind, {"dc", "ac", "burst", "pulse", "pulse_train", "table"},
-                "constant; cos(2πft + phase); that during [start, start + duration); 1 during [start, start + "
-                "duration); that in every period; linear between "
-                "the entries of a table",
-                required);
+  waveform.word(
+      "kind", &WaveformScene::kind, {"dc", "ac", "burst", "pulse", "pulse_train", "table"},
+      "dc: constant; ac: cos(2πft + phase); burst: the same during [start, start + duration), else 0; pulse: 1 "
+      "during [start, start + duration), else 0; pulse_train: a pulse in every period; table: linear between "
+      "its entries",
+      required);
   auto ac = waveform.of("ac", "burst"), pulse = waveform.of("burst", "pulse", "pulse_train"),
        table = waveform.of("table");
   ac.key("frequency", &WaveformScene::frequency, positive,
@@ -101,11 +102,11 @@ auto add_waveform(auto waveform) {
 
 /// Adds the keys of a table for a spatially varying property.
 auto add_places(auto places) {
-  places.word(
-      "kind", &PlaceScene::kind, {"harmonics", "cap", "file"},
-      "the property is its value in [membrane] times base + s(θ, φ), where the material point was on the parameter "
-      "sphere of [shape]; times a factor within a round cap and another outside; as harmonics, of a text file",
-      required);
+  places.word("kind", &PlaceScene::kind, {"harmonics", "cap", "file"},
+              "the value in [membrane] times a factor; harmonics: base + s at the initial (θ, φ) of the material "
+              "point; cap: one "
+              "factor within a round cap, another outside; file: harmonics of a text file",
+              required);
   auto harmonics = places.of("harmonics", "file"), cap = places.of("cap");
   harmonics.key("base", &PlaceScene::base, {"", "1", "constant part of the factor"});
   harmonics.key("modes", &PlaceScene::modes,
@@ -193,27 +194,27 @@ void add_wall(auto& scene) {
   wall.key("point", &WallScene::point, {"", "length", "any point of the plane"});
   wall.key("normal", &WallScene::normal,
            {"n", "1", "of any length; the vesicles are on the side that it points to", required});
-  wall.word("flow", &WallScene::flow, {"none", "no-slip", "stress-free"},
-            "the fluid rests on it; it is a free surface that stays flat; none: it does not touch the flow");
+  wall.word(
+      "flow", &WallScene::flow, {"none", "no-slip", "stress-free"},
+      "none: no effect on the flow; no-slip: the fluid sticks to it; stress-free: a free surface that stays flat");
   wall.word("field", &WallScene::field, {"none", "insulating", "electrode"},
-            "no current through it; constant potential; none: it does not touch the field");
+            "none: no effect on the field; insulating: no current crosses it; electrode: its potential is constant");
 }
 
 void add_flow(auto& scene) {
   auto flow = scene.optional("flow", &Scene::flow, "background flow; absent: quiescent");
   flow.word("kind", &FlowScene::kind, {"shear", "planar_extension", "axisymmetric_extension", "gradient", "poiseuille"},
-            "rate (z, 0, 0); rate (x, 0, −z); rate (−x/2, −y/2, z); any gradient; centre_velocity (1 − (y² + "
-            "z²)/radius²) along x",
+            "shear: rate (z, 0, 0); planar_extension: rate (x, 0, −z); axisymmetric_extension: rate (−x/2, −y/2, z); "
+            "gradient: any; poiseuille: centre_velocity (1 − (y² + z²)/radius²) along x",
             required);
   flow.of("shear", "planar_extension", "axisymmetric_extension")
       .key("rate", &FlowScene::rate, {"γ̇", "1/time", "velocity gradient", required});
   flow.of("gradient").key("gradient", &FlowScene::gradient, {"∇v", "1/time", "rows dv_i/dx_j of trace zero", required});
   auto poiseuille = flow.of("poiseuille");
   poiseuille.key("centre_velocity", &FlowScene::centre_velocity, {"v_c", "velocity", "on the axis", required});
-  poiseuille.key("radius", &FlowScene::radius, positive,
-                 {"R", "length", "where the profile vanishes; a wall stands there only with [wall]", required});
+  poiseuille.key("radius", &FlowScene::radius, positive, {"R", "length", "where the profile vanishes", required});
   poiseuille.word("section", &FlowScene::section, {"tube", "slit"},
-                  "1 − (y² + z²)/radius², or 1 − z²/radius² of a flow between planes");
+                  "tube: 1 − (y² + z²)/radius²; slit: 1 − z²/radius², a flow between planes");
   add_waveform(flow.optional("flow.waveform", &FlowScene::waveform, "factor of the flow in time; absent: 1"));
 }
 
@@ -229,12 +230,14 @@ void add_electric(auto& scene) {
   electric.key("permittivity", &ElectricScene::permittivity, positive, {"ε", "permittivity", "of the fluid outside"});
   electric.key("permittivity_ratio", &ElectricScene::permittivity_ratio, positive,
                {"ε_i/ε_e", "1", "inside over outside"});
-  electric.word("initial_Vm", &ElectricScene::initial_potential, {"zero", "steady", "file"},
-                "transmembrane potential at time 0: none; that of a membrane fully charged; that of the file of "
-                "[shape], which is the default with a file that has one");
+  electric.word(
+      "initial_Vm", &ElectricScene::initial_potential, {"zero", "steady", "file"},
+      "transmembrane potential at time 0: zero; steady: of a fully charged membrane; file: of the file of [shape], "
+      "the default if that has one");
   electric.key(
       "displacement_current", &ElectricScene::displacement_current,
-      {"", "", "of both fluids, which matters in fields of some 100 kHz and pulses below some us; needs permittivity"});
+      {"", "",
+       "of both fluids, which matters above the frequency σ/(2πε) and in pulses below ε/σ; needs permittivity"});
   auto ac = add_waveform(
       electric.optional("electric.waveform", &ElectricScene::waveform, "factor of the field in time; absent: 1"));
   ac.key("average", &WaveformScene::average,
@@ -256,9 +259,9 @@ void add_poration(auto& scene) {
   auto criterion = poration.of("criterion"), porosity = poration.of("porosity"), pores = poration.of("pores");
   criterion.key("threshold_Vm", &Poration::threshold_potential, positive,
                 {"V_c", "potential", "of |V_m|; this, lysis_tension or both"});
-  criterion.key("lysis_tension", &Poration::lysis_tension, positive,
-                {"λ_c", "force/length",
-                 "of λ + C_m V_m²/2, which a sphere determines with undulations alone; this, threshold_Vm or both"});
+  criterion.key(
+      "lysis_tension", &Poration::lysis_tension, positive,
+      {"λ_c", "force/length", "of λ + C_m V_m²/2, on a sphere only with undulations; this, threshold_Vm or both"});
   porosity.key("threshold_Vm", &Poration::threshold_potential, positive,
                {"V_r", "potential", "where β is a half", required});
   porosity.key("porated_conductance", &Poration::porated_conductance, not_negative,
@@ -285,8 +288,8 @@ void add_numerics(auto& scene) {
   numerics.key(
       "tolerance", &NumericsScene::tolerance, {tightest_tolerance, 0.1},
       {"", "1",
-       "required relative error of the columns of history.csv except pore_density_max: degree, steps and solvers "
-       "follow; absent: they are fixed"});
+       "target for the relative error of the columns of history.csv except pore_density_max: degree, steps and "
+       "solvers follow; absent: they are fixed"});
   numerics
       .key("degree", &NumericsScene::order, {lowest_order, highest_order},
            {"p", "1",
@@ -301,14 +304,15 @@ void add_numerics(auto& scene) {
   numerics.key("end_time", &NumericsScene::end_time, not_negative,
                {"", "time", "0 solves and writes the initial state alone", required});
   numerics.word("until", &NumericsScene::until, {"end_time", "rest"},
-                "rest: the run ends earlier, once no waveform changes any more and shape, V_m, pores and places beside "
-                "a wall or others would change by less than the tolerance (1e-3 without one) up to end_time at their "
-                "present rates");
-  numerics.word("symmetry", &NumericsScene::symmetry, {"auto", "off", "axisymmetric"},
-                "use what is found; use none; refuse a scene that is not axisymmetric about any axis");
+                "rest: the run ends earlier, once no waveform changes any more and shape, V_m, pores and positions "
+                "relative to a wall or other vesicles would change by less than the tolerance (1e-3 without one) up "
+                "to end_time at their present rates");
+  numerics.word(
+      "symmetry", &NumericsScene::symmetry, {"auto", "off", "axisymmetric"},
+      "auto: the symmetry that is found; off: none; axisymmetric: refuse a scene without an axis of symmetry");
   numerics.key(
       "error_bars", &NumericsScene::error_bars,
-      {"", "", "history_error.csv: the estimated error of every number of history.csv, for 6 to 63 % more time"});
+      {"", "", "history_error.csv: the estimated error of every number of history.csv; adds 6 to 63 % to the time"});
 }
 
 void add_output(auto& scene) {
@@ -338,7 +342,7 @@ void add_suspension(auto& scene) {
                  {"", "1", "of the vesicles in the region; or count"});
   suspension.key("seed", &SuspensionScene::seed, {0.0, 1e9}, {"", "1", "of the random places and orientations"});
   suspension.word("orientation", &SuspensionScene::orientation, {"random", "aligned"},
-                  "random takes the place of rotation in [shape]");
+                  "random: random rotations, which replace rotation in [shape]; aligned: all alike");
   suspension.key("gap", &SuspensionScene::gap, not_negative,
                  {"", "1", "least distance of two vesicles over the radius √(area/4π)"});
 }

@@ -40,10 +40,14 @@ double largest_factor(const std::optional<WaveformScene>& waveform) {
   return most;
 }
 
-/// Shortest time in which the field changes: 1/ω, the duration of a pulse, the shortest interval of a table.
+/// Shortest time in which the field changes: 1/ω, the duration of a pulse or of the pause after it, the shortest
+/// interval of a table.
 double shortest_time(const WaveformScene& waveform) {
   if (alternates(waveform)) return 1.0 / (2.0 * std::numbers::pi * waveform.frequency);
-  if (waveform.kind == WaveformKind::pulse || waveform.kind == WaveformKind::pulse_train) return waveform.duration;
+  if (waveform.kind == WaveformKind::pulse) return waveform.duration;
+  if (waveform.kind == WaveformKind::pulse_train) {
+    return std::min(waveform.duration, waveform.period - waveform.duration);
+  }
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < waveform.times.size(); ++i) {
     const double interval = waveform.times[i] - waveform.times[i - 1];

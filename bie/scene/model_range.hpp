@@ -21,7 +21,7 @@ struct ReachedValues {
   double potential = 0.0;                   ///< largest |V_m|
   double tension = 0.0;                     ///< largest λ
   double mean_tension = 0.0;                ///< largest ∫λ dA/A
-  double least_mean_tension = 0.0;          ///< smallest ∫λ dA/A
+  double least_mean_tension = 0.0;          ///< smallest ∫λ dA/A, at most 0
   double start_time = 0.0, end_time = 0.0;  ///< times of the first and the last row of the history
 };
 

@@ -201,7 +201,7 @@ Scene scene_of(const TomlFile& file, const std::filesystem::path& folder, const 
   require_keys(scene, file);
   settle_reduced_volume(scene, scene.shape, file);
   if (scene.electric) scale_field(*scene.electric, file);
-  read_number_files(scene, folder);
+  read_number_files(scene, file, folder);
   apply_tolerance(scene.numerics, *file.find("numerics"));
   return scene;
 }
@@ -246,8 +246,10 @@ std::string name_of(const toml::table& vesicle, std::size_t number, const TomlFi
   const std::string name = node->value<std::string>().value_or("");
   const auto is_plain = [](unsigned char letter) { return letter >= 0x20 && letter != 0x7f && letter != '"'; };
   if (name.empty() || name.size() > longest_name || !std::ranges::all_of(name, is_plain)) {
-    file.refuse(*node, "\"name\" in [[vesicle]] is {}; accepted: a text of 1 to {} letters", shown(*node),
-                longest_name);
+    file.refuse(
+        *node,
+        "\"name\" in [[vesicle]] is {}; accepted: a text of 1 to {} bytes without double quotes and control characters",
+        shown(*node), longest_name);
   }
   return name;
 }

@@ -45,6 +45,7 @@ std::vector<RunTime> run_times(const Scene& scene, const std::vector<Dimensionle
   };
   if (scene.electric) add_waveform("field", scene.electric->waveform);
   if (scene.flow) add_waveform("flow", scene.flow->waveform);
+  if (scene.membrane.pump) add_waveform("pump", scene.membrane.pump->waveform);
   if (end > 0.0) add("run", "t_end", end, "from start to end");
   std::ranges::stable_sort(times, {}, &RunTime::value);
   return times;

@@ -89,6 +89,7 @@ bool Range::contains(double value) const {
 std::string Range::text() const {
   if (std::isinf(lower) && std::isinf(upper)) return "any finite number";
   if (std::isinf(upper)) return fmt::format("{} {}", lower_excluded ? ">" : ">=", lower);
+  if (lower_excluded) return fmt::format("> {} and <= {}", lower, upper);
   return fmt::format("{} ... {}", lower, upper);
 }
 

@@ -44,7 +44,7 @@ struct Range {
 
   /// Is the value in the interval?
   [[nodiscard]] bool contains(double value) const;
-  /// "> 0", ">= 0", "4 ... 64" or "any finite number"
+  /// "> 0", ">= 0", "4 ... 64", "> 0 and <= 1" or "any finite number"
   [[nodiscard]] std::string text() const;
 };
 

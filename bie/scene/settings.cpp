@@ -44,7 +44,7 @@ std::pair<std::string, std::string> assignment_of(const std::string& setting) {
   const auto n_points = std::ranges::count(key, '.');
   if (key.starts_with(vesicle_prefix)) return {key, trimmed(setting.substr(equals + 1))};
   if (!is_dotted_name(key) || (n_points > 2 && find_table(key.substr(0, key.rfind('.'))) == nullptr)) {
-    refuse(fmt::format("\"{}\" is no key", key), form);
+    refuse(fmt::format("\"{}\" is not a key", key), form);
   }
   if (n_points == 0) {
     if (find_table(key) != nullptr) refuse(fmt::format("\"{}\" is a table", key), form);
@@ -70,7 +70,7 @@ void refuse_other_numbers(const std::string& text, const std::string& setting) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !std::isfinite(number)) return;
-  throw InputError(fmt::format("{}{}: {} is no number of TOML, which writes {}", option, setting, text, number));
+  throw InputError(fmt::format("{}{}: {} is not a TOML number; write {}", option, setting, text, number));
 }
 
 /// Table of the vesicle that a setting "vesicle.NAME.table.key" names, and "table.key".
@@ -84,7 +84,7 @@ std::pair<toml::table*, std::string> of_vesicle(toml::table& file, const std::st
     const std::string own_key = key_of_vesicle(key, {names.back()});
     if (own_key != key && is_dotted_name(own_key)) return {table, own_key};
   }
-  throw InputError(fmt::format("{}{}: \"{}\" is no key of a vesicle; accepted: vesicle.NAME.table.key{}{}", option,
+  throw InputError(fmt::format("{}{}: \"{}\" is not a key of a vesicle; accepted: vesicle.NAME.table.key{}{}", option,
                                setting, key, names.empty() ? ", in a scene with tables [[vesicle]]" : ", NAME of ",
                                fmt::join(names, ", ")));
 }

@@ -110,9 +110,10 @@ class VariedKeyReader {
     const Quantity from = table_.quantity("from", end_form);
     const Quantity to = in_unit_of(from, table_.quantity("to", end_form));
     const toml::node* counted = table_.entries.get("count");
-    const std::int64_t count = counted != nullptr ? counted->value<std::int64_t>().value_or(0) : 0;
+    if (counted == nullptr) table_.refuse(table_.entries, "needs \"count\"; accepted: 2 ... {}", most_runs);
+    const std::int64_t count = counted->value<std::int64_t>().value_or(0);
     if (count < 2 || count > static_cast<std::int64_t>(most_runs)) {
-      table_.refuse(counted != nullptr ? *counted : table_.entries, "needs \"count\"; accepted: 2 ... {}", most_runs);
+      table_.refuse_value("count", fmt::format("; accepted: an integer, 2 ... {}", most_runs));
     }
     if (logarithmic && !(from.number * to.number > 0.0)) {
       table_.refuse(*table_.entries.get("from"),
@@ -166,8 +167,8 @@ void require_different_values(const VariedKey& key, const TomlFile& file) {
   std::set<std::string> values;
   for (const VariedValue& value : key.values) {
     if (values.insert(value.toml).second) continue;
-    throw InputError(
-        fmt::format("{}: \"{}\" in [vary] has {} twice; accepted: different values", file.name, key.name, value.shown));
+    file.refuse(*file.table.get("vary"), "\"{}\" in [vary] has {} twice; accepted: different values", key.name,
+                value.shown);
   }
 }
 
@@ -184,7 +185,7 @@ void read_sweep_mode(const NamedTable& table, SweepFile& sweep) {
     }
   }
   if (sweep.n_runs() > most_runs) {
-    throw InputError(fmt::format("{}: makes more than {} runs; accepted: at most that many", file.name, most_runs));
+    file.refuse(*file.table.get("vary"), "[vary] makes more than {0} runs; accepted: at most {0}", most_runs);
   }
 }
 

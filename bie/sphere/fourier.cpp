@@ -25,7 +25,7 @@ constexpr int kMostLatitudes = 1;
 constexpr int kWidest = kLanes;
 #endif
 /// Up to this order products are faster than fast transforms: measured without AVX, and with AVX at all degrees up to
-/// 64, where they take half the time (docs/performance.md).
+/// 64, where they take half the time.
 #ifdef __AVX__
 constexpr int kMostByProducts = 128;
 #else

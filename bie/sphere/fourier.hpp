@@ -31,8 +31,8 @@ struct AnalysedAmplitudes {
 /// Fourier sums over equispaced longitudes φ_k = 2πk/n_phi, on all latitudes of a grid symmetric about the equator:
 ///   f(φ) = Σ_m (C_m cos mφ + S_m sin mφ),  m = 0 … order,
 /// as products of small matrices over a quarter of the circle and a hemisphere, since terms at longitudes ±φ and π ± φ
-/// and at latitudes θ and π − θ differ only in sign; for high orders by FastFourier if that is faster
-/// (docs/performance.md).
+/// and at latitudes θ and π − θ differ only in sign; for high orders by FastFourier where that is faster:
+/// on processors without AVX.
 /// Accuracy: rounding; round trips of the transform to 2e-13 (tests/sphere/transform_test.cpp)
 class FourierSums {
  public:

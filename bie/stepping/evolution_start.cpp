@@ -43,6 +43,7 @@ bool Evolution::restart_at(const std::vector<int>& orders,
                            const std::function<bool(const Evaluation& former)>& is_needed) {
   const Discretisation discretisation = discretisation_;
   const State state = state_;
+  const SmallestGap gap = gap_;
   const Evaluation evaluation = std::move(evaluation_);
   try {
     start_at(orders, start_);
@@ -53,6 +54,7 @@ bool Evolution::restart_at(const std::vector<int>& orders,
   }
   discretisation_ = discretisation;
   state_ = state;
+  gap_ = gap;
   evaluation_ = evaluation;
   return false;
 }

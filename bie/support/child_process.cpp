@@ -84,8 +84,13 @@ ChildEnd end_of(int status) {
   sigprocmask(SIG_SETMASK, &none, nullptr);
   ::dup2(::open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
   if (start.output != nullptr) {
-    ::dup2(::open(start.output, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666), STDOUT_FILENO);
-    ::dup2(STDOUT_FILENO, STDERR_FILENO);
+    const int output = ::open(start.output, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (output < 0) {
+      report({.start_problem = errno});
+      ::_exit(1);
+    }
+    ::dup2(output, STDOUT_FILENO);
+    ::dup2(output, STDERR_FILENO);
   }
   if (start.folder == nullptr || ::chdir(start.folder) == 0) ::execvp(start.file, start.words);
   report({.start_problem = errno});

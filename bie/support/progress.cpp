@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bie/support/text_table.hpp"
+
 namespace vehd {
 namespace {
 
@@ -72,7 +74,7 @@ void Progress::draw() {
     fmt::print(stderr, "{:3.0f}%  {}\n", 100.0 * share_, text_);
     return;
   }
-  const int room = terminal_width() - static_cast<int>(text_.size()) - 8;
+  const int room = terminal_width() - static_cast<int>(display_width(text_)) - 8;
   const int width = std::clamp(room, 0, widest_bar);
   fmt::print(stderr, "\r{} {:3.0f}%  {}\033[K", bar(share_, width), 100.0 * share_, text_);
   std::fflush(stderr);
@@ -81,8 +83,8 @@ void Progress::draw() {
 
 std::string duration_text(double seconds) {
   if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
-  // Also covers NaN and values that no integer holds.
-  if (!(seconds < 1e7)) return "long";
+  if (!std::isfinite(seconds)) return "unknown";
+  if (seconds >= 1e7) return fmt::format("{:.0f} days", seconds / 86400.0);
   const auto whole = static_cast<long>(std::lround(seconds));
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{}:{:02d}", whole / 60, whole % 60);

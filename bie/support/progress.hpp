@@ -40,7 +40,7 @@ class Progress {
   bool line_open_ = false;
 };
 
-/// "1:02:03", "2:05" or "4.2 s".
+/// "4.2 s", "12 s", "2:05", "1:02:03" or "120 days"; "unknown" if not finite.
 std::string duration_text(double seconds);
 
 }  // namespace vehd

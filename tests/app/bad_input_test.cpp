@@ -130,7 +130,8 @@ BOOST_FIXTURE_TEST_CASE(nan_is_in_no_range, SceneCase) {
 BOOST_FIXTURE_TEST_CASE(no_output_replaces_an_input, FinishedRun) {
   const std::string text = file_text(scene);
   check_refused({"plan", scene, "--json", scene},
-                "vehd plan: --json: " + scene + " is SCENE as well, which it would replace; see vehd plan --help");
+                "vehd plan: --json: " + scene +
+                    " is also given as SCENE; writing the result would overwrite it; see vehd plan --help");
   for (const std::string name : {"/run.h5", "/scene.toml"}) {
     const std::string before = file_text(output + name);
     check_refused({"report", output, "-o", output + name},
@@ -241,19 +242,19 @@ BOOST_FIXTURE_TEST_CASE(truncated_run_file, FinishedRun) {
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
   const ProgramResult plot = run_vehd({"plot", output});
   BOOST_TEST(plot.exit_code == 1);
-  BOOST_TEST(plot.errors.find(file + ": no readable HDF5 file, it is truncated") == 0, plot.errors);
+  BOOST_TEST(plot.errors.find(file + ": not a readable HDF5 file: truncated") == 0, plot.errors);
 
   write_text(directory / "next.toml",
              "[shape]\nkind = \"file\"\npath = \"out/run.h5\"\n"
              "[numerics]\norder = 6\ndt = 1\nend_time = 0\n");
   const ProgramResult run = run_vehd({"run", directory / "next.toml", "-o", directory / "next"});
   BOOST_TEST(run.exit_code == 1);
-  BOOST_TEST(run.errors.find("run.h5: no readable HDF5 file, it is truncated") != std::string::npos, run.errors);
+  BOOST_TEST(run.errors.find("run.h5: not a readable HDF5 file: truncated") != std::string::npos, run.errors);
 
   write_text(scene, quick_scene("1.0"));
   const ProgramResult resumed = run_vehd({"run", scene, "-o", output, "--resume"});
   BOOST_TEST(resumed.exit_code == 1);
-  BOOST_TEST(resumed.errors.find(file + ": no readable HDF5 file") == 0, resumed.errors);
+  BOOST_TEST(resumed.errors.find(file + ": not a readable HDF5 file") == 0, resumed.errors);
 }
 
 BOOST_FIXTURE_TEST_CASE(shape_file_without_that_time, FinishedRun) {

@@ -106,10 +106,10 @@ BOOST_AUTO_TEST_CASE(walls_that_the_elements_do_not_support_are_refused) {
   };
   refused(vesicle_text + "[wall]\nnormal = [0.0, 0.0, 1.0]\nfield = 'insulating'\n" + electric_text("[0.3, 0.5, 0.0]") +
               numerics_text,
-          "has a wall that does not touch the flow; vehd check accepts \"flow\" no-slip or stress-free in [wall]");
+          "has a wall without effect on the flow; vehd check accepts \"flow\" no-slip or stress-free in [wall]");
   refused(vesicle_text + "[wall]\nnormal = [0.0, 0.0, 1.0]\nflow = 'no-slip'\n" + electric_text("[0.3, 0.5, 0.0]") +
               numerics_text,
-          "has a wall that does not touch the field; vehd check accepts \"field\" insulating or electrode in [wall]");
+          "has a wall without effect on the field; vehd check accepts \"field\" insulating or electrode in [wall]");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

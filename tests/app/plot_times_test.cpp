@@ -72,8 +72,9 @@ BOOST_FIXTURE_TEST_CASE(times_outside_the_run_are_refused, ShortRun) {
   for (const char* asked : {"nan", "five", "5 kV"}) {
     const ProgramResult result = plot(std::string("0,") + asked);
     BOOST_TEST(result.exit_code == 1);
-    BOOST_TEST(result.errors.find(std::string("\"") + asked + "\" is no time; accepted: a number") != std::string::npos,
-               result.errors);
+    BOOST_TEST(
+        result.errors.find(std::string("\"") + asked + "\" is not a time; accepted: a number") != std::string::npos,
+        result.errors);
   }
   const ProgramResult unit = plot("0,1 ms");
   BOOST_TEST(unit.exit_code == 1);

@@ -151,7 +151,7 @@ BOOST_FIXTURE_TEST_CASE(a_run_whose_workers_are_killed_again_and_again_is_given_
   BOOST_TEST(program.wait().exit_code == 0);
   BOOST_TEST(n_kills >= 20);
   BOOST_TEST(column("verdict")[0] == "crashed");
-  BOOST_TEST(column("reason")[0] == "21 workers were killed at it");
+  BOOST_TEST(column("reason")[0] == "21 workers were killed while computing it");
 }
 
 BOOST_FIXTURE_TEST_CASE(results_of_a_sweep_do_not_depend_on_units, SweepWork) {

@@ -178,9 +178,10 @@ BOOST_AUTO_TEST_CASE(shapes_that_enclose_nothing_are_named) {
     return text;
   };
   BOOST_TEST(refusal([](double x) { return -x; }).starts_with("x at time 0 encloses the volume -5.98997;"));
-  BOOST_TEST(refusal([](double) { return 0.0; }) == "x at time 0 is no surface: its area element vanishes somewhere");
+  BOOST_TEST(refusal([](double) { return 0.0; }) ==
+             "x at time 0 is not a surface: its area element vanishes somewhere");
   BOOST_TEST(refusal([](double x) { return 1e200 * x; }) ==
-             "x at time 0 is too large: its area or its volume is no finite number");
+             "x at time 0 is too large: its area or its volume is not finite");
 }
 
 BOOST_AUTO_TEST_CASE(fields_that_the_elements_do_not_support_are_refused) {

@@ -152,8 +152,9 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_fit_name_their_line) {
              "fit.toml:5: unknown key \"deviations\" in [[experiment]]; did you mean \"deviation\"?");
   BOOST_TEST(folder.refusal("[[experiment]]\nscene = \"none.toml\"\ndata = \"data.csv\"\n") ==
              "fit.toml:2: \"scene\" in [[experiment]] is the text 'none.toml': no such file");
-  BOOST_TEST(folder.refusal("[[experiment]]\nscene = \"scene.toml\"\ndata = \"data.csv\"\nquantity = \"extent_q\"\n")
-                 .starts_with("fit.toml:4: \"quantity\" is \"extent_q\", which history.csv of the scene has not"));
+  BOOST_TEST(
+      folder.refusal("[[experiment]]\nscene = \"scene.toml\"\ndata = \"data.csv\"\nquantity = \"extent_q\"\n")
+          .starts_with("fit.toml:4: \"quantity\" is \"extent_q\", which history.csv of the scene does not have"));
   BOOST_TEST(folder.refusal("[[experiment]]\nscene = \"scene.toml\"\ndata = \"data.csv\"\nquantity = \"time\"\n") ==
              "fit.toml:4: \"quantity\" is \"time\"; accepted: another column of history.csv");
   BOOST_TEST(folder.refusal(experiment + experiment)

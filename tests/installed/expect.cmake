@@ -16,6 +16,7 @@ function(look_at_texts prefix)
   if(manual)
     expect("resume" zcat "${prefix}/share/man/man1/vehd-run.1.gz")
     expect("simulate lipid vesicles" zcat "${manual}")
+    expect("measured data" zcat "${prefix}/share/man/man1/vehd-fit.1.gz")
   endif()
   foreach(file IN ITEMS share/vehd/scenes/figure2.toml share/doc/vehd/README.md share/doc/vehd/conventions.md
                         share/doc/vehd/CITATION.cff)

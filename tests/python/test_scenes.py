@@ -43,6 +43,12 @@ class Scenes(InFolder):
         self.assertEqual(scene, vehd.Scene.from_text(
             SHEARED.replace("rate = 1.0", "rate = 2.5").replace("[0.3, 0.1, 1.0]", "[0.0, 0.0, 1.0]")))
 
+    def test_settings_take_numbers_of_numpy_and_any_character(self):
+        file = self.write(SHEARED)
+        self.assertEqual(vehd.Scene(file, {"numerics.degree": np.int64(7)}), vehd.Scene(file, {"numerics.degree": 7}))
+        with self.assertRaisesRegex(vehd.SceneError, "\U0001F596"):
+            vehd.Scene(file, {"flow.kind": "\U0001F596"})
+
 
 class Errors(InFolder):
     def test_a_wrong_scene_says_what_the_program_says(self):

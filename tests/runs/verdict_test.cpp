@@ -183,7 +183,7 @@ BOOST_AUTO_TEST_CASE(fixed_steps_that_fail_again_and_again_are_seen) {
     }
     return result;
   };
-  BOOST_TEST(judged(rows(5)) == "rejected before 20 of 100 steps since time 0.5");
+  BOOST_TEST(judged(rows(5)) == "attempts failed before 20 of 100 steps, first at time 0.5");
   BOOST_TEST(judged(rows(12)) == "trustworthy");
   BOOST_TEST(judged(rows(5), {1e-3}) == "trustworthy");
   // One step in three, but of only a few steps.

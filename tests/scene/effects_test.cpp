@@ -68,7 +68,9 @@ BOOST_AUTO_TEST_CASE(table_is_read_from_a_file_and_kept_in_the_scene) {
   BOOST_TEST(message().ends_with("factor.csv:2: is \"1, high\"; accepted: two finite numbers, time and factor"),
              message());
   std::filesystem::remove(folder / "factor.csv");
-  BOOST_TEST(message().ends_with("factor.csv: no such file (\"path\" of a waveform)"), message());
+  BOOST_TEST(message().starts_with("scene.toml:"), message());
+  BOOST_TEST(message().find("\"path\" in [electric.waveform] is /") != std::string::npos, message());
+  BOOST_TEST(message().ends_with("factor.csv: no such file"), message());
 }
 
 BOOST_AUTO_TEST_CASE(every_effect_reads_back_to_the_same_scene) {
@@ -161,9 +163,10 @@ BOOST_AUTO_TEST_CASE(waveform_that_makes_no_sense_is_refused) {
 
 BOOST_AUTO_TEST_CASE(requested_symmetry_must_exist) {
   BOOST_TEST(message_with("symmetry = 'axisymmetric'\n") == "");
-  BOOST_TEST(message_with("symmetry = 'axisymmetric'\n[flow]\nkind = 'shear'\nrate = 1\n") ==
-             "scene.toml:8: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about one "
-             "axis; they have: mirror y, half turn about y, inversion");
+  BOOST_TEST(
+      message_with("symmetry = 'axisymmetric'\n[flow]\nkind = 'shear'\nrate = 1\n") ==
+      "scene.toml:8: \"symmetry\" in [numerics] is axisymmetric, but shape, flow and field have no common axis of "
+      "symmetry; symmetry found: mirror y, half turn about y, inversion");
   const std::string along_x = "[shape]\nkind='ellipsoid'\naxes=[2,1,1]\n[numerics]\ndt=1\nend_time=1\norder=8\n";
   BOOST_TEST(message_of(along_x + "symmetry='axisymmetric'\n") == "");
   const vehd::Problem lying = vehd::problem_of(parsed(along_x + "symmetry='off'\n"));

@@ -169,6 +169,7 @@ BOOST_AUTO_TEST_CASE(deep_nesting_is_refused) {
     BOOST_TEST(message_of(text + "b = 1\n").starts_with("scene.toml:1: "));
     BOOST_TEST(message_of("[" + text + "b]\n").starts_with("scene.toml:1: "));
   }
+  BOOST_TEST(message_of("# " + std::string(100, '.') + "\n" + numerics("dt = 1\nend_time = 1\n")) == "");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

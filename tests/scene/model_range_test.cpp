@@ -106,6 +106,11 @@ BOOST_AUTO_TEST_CASE(short_pulses_and_high_frequencies_need_displacement_current
                                                    "displacement_current = true\n"
                                                    "permittivity"))
                   .contains("charge_relaxation"));
+  const auto train = [&](double duration, double pause) {
+    return fmt::format("kind = \"pulse_train\"\nduration = \"{} s\"\nperiod = \"{} s\"\n", duration, duration + pause);
+  };
+  BOOST_TEST(!with(train(11 * relaxation, 11 * relaxation)).contains("charge_relaxation"));
+  BOOST_TEST(with(train(11 * relaxation, 9 * relaxation)).contains("charge_relaxation"));
   const auto ac = [&](double omega) {
     return fmt::format("kind = \"ac\"\naverage = true\nfrequency = \"{} Hz\"\n", omega / (2 * std::numbers::pi));
   };

@@ -202,18 +202,17 @@ BOOST_AUTO_TEST_CASE(units_on_one_side_alone_are_refused_where_they_matter) {
   const std::string units = units_text({1e-5, 1e-3, 1e-3, 0.1});
   const StoredRun with(units + ellipsoid + electric + numerics), without(ellipsoid + electric + numerics);
   BOOST_TEST(with.message(with.scene("")) ==
-             "scene.toml:3: \"path\" in [shape] needs a reference length, which FILE has and this scene has not; "
+             "scene.toml:3: \"path\" in [shape] needs a reference length, which FILE has but this scene lacks; "
              "accepted: \"length\" in [units], or \"area\" in [shape], which sets the size");
   BOOST_TEST(without.message(without.scene(units)) ==
-             "scene.toml:8: \"path\" in [shape] needs a reference length, which this scene has and FILE has not; "
+             "scene.toml:8: \"path\" in [shape] needs a reference length, which this scene has but FILE lacks; "
              "accepted: a run of a scene with [units], or \"area\" in [shape], which sets the size");
   BOOST_TEST(with.message(with.scene("", "area = 12\ntime = 1\n")) ==
-             "scene.toml:5: \"time\" in [shape] needs a reference time, which FILE has and this scene has not; "
+             "scene.toml:5: \"time\" in [shape] needs a reference time, which FILE has but this scene lacks; "
              "accepted: \"time\" in [units], or no \"time\", for the last snapshot");
-  BOOST_TEST(
-      without.message(without.scene(units, "area = 12\n")) ==
-      "scene.toml:10: \"initial_Vm\" in [electric] needs a reference potential, which this scene has and FILE has "
-      "not; accepted: a run of a scene with [units], or \"initial_Vm\" zero or steady");
+  BOOST_TEST(without.message(without.scene(units, "area = 12\n")) ==
+             "scene.toml:10: \"initial_Vm\" in [electric] needs a reference potential, which this scene has but FILE "
+             "lacks; accepted: a run of a scene with [units], or \"initial_Vm\" zero or steady");
   // If the scene states an area and a potential of its own, it needs none of the scales.
   const std::string zero = electric + "initial_Vm = \"zero\"\n";
   for (const StoredRun* run : {&with, &without}) {

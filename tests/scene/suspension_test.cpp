@@ -74,6 +74,8 @@ BOOST_AUTO_TEST_CASE(suspensions_that_do_not_fit_are_refused) {
              "scene.toml:11: \"count\" in [suspension] is 1000000; accepted: at most 500");
   BOOST_TEST(message_of(with("kind = \"box\"\nsize = [8e3, 8e3, 8e3]\nvolume_fraction = 0.1\n")) ==
              "scene.toml:11: \"volume_fraction\" in [suspension] makes 8.14873e+09 vesicles; accepted: 1 to 500");
+  BOOST_TEST(message_of(with(box + "volume_fraction = 0\n"))
+                 .ends_with("\"volume_fraction\" in [suspension] is 0; accepted: a number > 0 and <= 1"));
   BOOST_TEST(message_of(with(box)) == "scene.toml:9: [suspension] accepts one of \"count\" and \"volume_fraction\"");
   BOOST_TEST(message_of(with("kind = \"box\"\nsize = [2.5, 8, 8]\ncount = 2\n")) ==
              "scene.toml:10: the region of [suspension] is 2.5 wide; accepted: at least 3, the width of a vesicle");

@@ -106,7 +106,7 @@ BOOST_FIXTURE_TEST_CASE(mistakes_are_said_with_line_and_nearest_name, SweepFolde
   BOOST_TEST(refusal(start + "\"numerics.ddt\" = {values = [1]}\n") ==
              ":3: unknown key \"ddt\" of [numerics] in [vary]; did you mean \"dt\"?");
   BOOST_TEST(refusal(start + "\"dt\" = {values = [1]}\n")
-                 .starts_with(":3: \"dt\" in [vary] is no \"table.key\" of a scene; did you mean \""));
+                 .starts_with(":3: \"dt\" in [vary] is not a \"table.key\" of a scene; did you mean \""));
   BOOST_TEST(refusal(start + "\"numerics.dt\" = 0.5\n").starts_with(":3: \"numerics.dt\" in [vary] is 0.5"));
   BOOST_TEST(refusal(start + "numerics.dt = 0.5\n").starts_with(":3: \"numerics.dt\" in [vary] is 0.5"));
   BOOST_TEST(refusal(start + "\"numerics.dt\" = {values = [1]}\nnumerics.dt = {values = [2]}\n")
@@ -145,7 +145,7 @@ BOOST_FIXTURE_TEST_CASE(a_key_of_one_vesicle_is_varied_by_its_name, SweepFolder)
   BOOST_TEST(shown_values(sweep.keys[0]) == (Texts{"1.0", "2.0"}), boost::test_tools::per_element());
   BOOST_TEST(sweep.keys[0].name == "vesicle.stiff.membrane.bending_modulus");
   BOOST_TEST(refusal("scene = \"base.toml\"\n[vary]\n\"vesicle.stif.membrane.bending_modulus\" = {values = [1]}\n")
-                 .find("is no \"table.key\" of a scene") != std::string::npos);
+                 .find("is not a \"table.key\" of a scene") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -64,10 +64,10 @@ BOOST_AUTO_TEST_CASE(vesicles_are_on_the_side_of_the_normal_and_not_too_near) {
   };
   BOOST_TEST(message_of(with_appended(below("-2.1"))).empty());
   BOOST_TEST(refuses(below("-2.0005"), "radii from the wall; accepted: at least 0.001"));
-  BOOST_TEST(refuses(below("0"), "the vesicle is not on the side of [wall] that \"normal\" points to"));
+  BOOST_TEST(refuses(below("0"), "radii beyond the wall; accepted: all of it on the side that \"normal\" points to"));
   BOOST_TEST(refuses(below("-2.1") + "[[vesicle]]\nname = \"high\"\nshape.centre = [0, 0, 6]\n[[vesicle]]\nname = "
                                      "\"low\"\nshape.centre = [0, 0, -0.5]\n",
-                     "vesicle \"low\" is not on the side"));
+                     "vesicle \"low\" extends "));
 }
 
 BOOST_AUTO_TEST_CASE(fields_meet_the_condition_at_the_wall) {
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(fields_meet_the_condition_at_the_wall) {
   BOOST_TEST(refuses(in_field("[1, 2, 0.1]") + insulating, "crosses an insulating wall"));
   BOOST_TEST(refuses(in_field("[0, 1, 1]") + electrode, "has a part along an electrode"));
   BOOST_TEST(refuses("[electric]\nfield = [0, 0, 1]\nconductivity_in = 0\nconductivity_out = 2\n" + electrode,
-                     "is 0; accepted beside a wall"));
+                     "is 0; accepted with \"field\" in [wall]"));
 }
 
 BOOST_AUTO_TEST_CASE(flows_meet_the_condition_at_the_wall) {

@@ -302,8 +302,8 @@ BOOST_AUTO_TEST_CASE(a_vesicle_too_near_to_a_wall_is_named) {
       require_gap(find_smallest_gap(state, discretisation, wall, 1e-3), gap, 0.1, Frame{}, {}), ConvergenceError,
       [](const ConvergenceError& error) {
         return std::string(error.what()) ==
-               "the vesicle comes within 0.0005 radii of the wall at (0, 0, 0.00025); accepted: 0.001, "
-               "up to which the layers between them are exact";
+               "the vesicle comes within 0.0005 radii of the wall at (0, 0, 0.00025); accepted: at least 0.001, "
+               "the smallest gap for which the layers are tested";
       });
 }
 

@@ -6,7 +6,7 @@
 
 namespace vehd {
 
-/// Linear background flow v_inf(x, t) = waveform(t) gradient x, gradient(i, j) = dv_i/dx_j, trace zero.
+/// Linear background flow v_∞(x, t) = waveform(t) gradient x, gradient(i, j) = dv_i/dx_j, trace zero.
 /// Gradient in 1/time.
 /// Source: paper Eq. (1c)
 struct BackgroundFlow {

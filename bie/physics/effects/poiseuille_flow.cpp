@@ -5,7 +5,11 @@
 namespace vehd {
 
 EffectDescription PoiseuilleFlowEffect::description() const {
-  return {kName, "v_inf = v_c (1 - (y^2 + z^2)/R^2) e_x on the right of Eq. (5)", {}, {}};
+  return {kName,
+          parameters_.across ? "v_inf = v_c (1 - z^2/R^2) e_x on the right of Eq. (5)"
+                             : "v_inf = v_c (1 - (y^2 + z^2)/R^2) e_x on the right of Eq. (5)",
+          {},
+          {}};
 }
 
 void PoiseuilleFlowEffect::add(const EffectInput& input, Forcing& forcing) const {

@@ -85,11 +85,10 @@ struct PoreParameters {
   double pore_conductance = 0.0;  ///< g_p
 };
 
-/// g_p = 2π r² σ_p/(π r + 2h) of a pore of radius r through a membrane of thickness h.
-/// Source: DeBruin and Krassowska 1999
+/// g_p = 2π r² σ_p/(π r + 2h) of a pore of radius r through a membrane of thickness h: a cylinder in series with the
+/// access resistance 1/(4rσ_p) of either end.
 double pore_conductance(double radius, double thickness, double conductivity);
-/// σ_p = (σ_e − σ_i)/ln(σ_e/σ_i), for two conducting fluids.
-/// Source: DeBruin and Krassowska 1999
+/// σ_p = (σ_e − σ_i)/ln(σ_e/σ_i) of a pore in which the conductivity varies linearly from one fluid to the other.
 double pore_conductivity(double inside, double outside);
 
 /// The state is s = ln(N/N_0), which is smooth where N rises by orders of magnitude within a few degrees of latitude; N

@@ -1,6 +1,7 @@
-"""What public functions accept. Each passes its arguments through here, so that nothing is cut or converted in silence."""
+"""Checks of the arguments of public functions, so that none is truncated or converted silently."""
 
 import difflib
+import json
 import math
 import operator
 from typing import Any, Optional, Sequence, Union
@@ -22,6 +23,11 @@ def shown(value: Any) -> str:
     return text if len(text) <= 60 else text[:60] + " ..."
 
 
+def toml_value(value: Any) -> str:
+    """TOML text of a number, a string, a boolean, or a list of these."""
+    return json.dumps(value.tolist() if hasattr(value, "tolist") else value, ensure_ascii=False)
+
+
 def _fits(shape: tuple, accepted: Shape) -> bool:
     return len(shape) == len(accepted) and all(isinstance(n, str) or n == size for size, n in zip(shape, accepted))
 
@@ -35,7 +41,7 @@ def reals(name: str, values: Any, *shapes: Shape) -> np.ndarray:
     try:
         array = np.asarray(values)
     except ValueError as error:
-        raise _core.ShapeError(f"{name} is no array: {error}") from None
+        raise _core.ShapeError(f"{name} is not an array: {error}") from None
     if array.dtype.kind == "c":
         raise _core.InputError(f"{name} is complex; accepted: real numbers, so pass the real and the imaginary part "
                                "one after the other")

@@ -18,8 +18,8 @@ from .tables import Table
 
 class CheckResult(dict):
     """What `vehd check --json` writes (docs/check.md); `agrees`: every row agrees within errors that are small enough;
-    `time`: of the snapshot that was compared, as in "0.5 ms", a number where the scene has no unit of time; `note`: where
-    that is not the requested time, and what cannot be known to be intact."""
+    `time`: of the snapshot that was compared, as in "0.5 ms", a number where the scene has no unit of time; `note`: says
+    if that is not the requested time and what could not be verified as intact; otherwise empty."""
 
     agrees: bool
     time: str
@@ -67,7 +67,7 @@ def check(what: Union[Simulation, Scene, str, "os.PathLike[str]"],
     time: of a snapshot, as "0.5 ms" or a number in the unit of the history; the last one if left out.
     from_time: of an earlier snapshot, likewise; the elements then also advance V_m from there by themselves.
     quick: coarse elements, 5 to 20 s of processor time for smooth shapes.
-    require: largest relative error of either method in any field with which they may agree.
+    require: largest relative error of either method with which a row may agree.
     ranks: MPI processes of the finite elements.
 
     InputError: there is no finite-element program, or it lacks an effect of the scene.

@@ -1,24 +1,24 @@
-"""Keys of scenes from measured data."""
+"""Fits keys of scenes to measured data."""
 
 import json
 import os
 from typing import Any, Dict, Mapping, Optional, Union
 
 from . import _core
-from .arguments import whole
+from .arguments import toml_value, whole
 
 
 def _toml(fit: Mapping[str, Any]) -> str:
-    """The text of a fit file. What JSON and TOML write alike is all that a value can be."""
+    """The text of a fit file."""
 
     def keys(table: Mapping[str, Any]) -> list:
-        return [f"{json.dumps(key)} = {json.dumps(value)}" for key, value in table.items()]
+        return [f"{toml_value(key)} = {toml_value(value)}" for key, value in table.items()]
 
     lines = []
     for experiment in fit.get("experiment", []):
         lines += ["[[experiment]]", *keys(experiment)]
     lines.append("[free]")
-    lines += [f"{json.dumps(key)} = {{{', '.join(keys(interval))}}}" for key, interval in fit.get("free", {}).items()]
+    lines += [f"{toml_value(key)} = {{{', '.join(keys(interval))}}}" for key, interval in fit.get("free", {}).items()]
     return "\n".join(lines) + "\n"
 
 

@@ -1,6 +1,5 @@
 """Scenes: what is simulated."""
 
-import json
 import os
 import re
 from typing import Any, Mapping, Optional, Union
@@ -8,7 +7,7 @@ from typing import Any, Mapping, Optional, Union
 import numpy as np
 
 from . import _core
-from .arguments import shown
+from .arguments import shown, toml_value
 
 
 def _place(error: BaseException) -> tuple:
@@ -25,14 +24,10 @@ Path = Union[str, "os.PathLike[str]"]
 
 
 def _settings(values: Optional[Mapping[str, Any]]) -> list:
-    """As the option --set takes them. What JSON and TOML write alike is all that a value can be."""
+    """As the option --set takes them."""
     if not isinstance(values or {}, Mapping):
         raise _core.InputError(f"settings is {shown(values)}; accepted: a mapping from \"table.key\" to values")
-
-    def plain(value: Any) -> Any:
-        return value.tolist() if hasattr(value, "tolist") else value
-
-    return [f"{key}={json.dumps(plain(value))}" for key, value in (values or {}).items()]
+    return [f"{key}={toml_value(value)}" for key, value in (values or {}).items()]
 
 
 class Scene:

@@ -65,7 +65,7 @@ class Simulation:
     def run(self, until: Optional[float] = None, progress: Progress = False) -> "Simulation":
         """Steps to the end of the scene, or until a time is reached or passed.
 
-        until: in the unit of the history. Steps are not cut for it, so that they stay those of the program.
+        until: in the unit of the history. No step is shortened to end there, so the steps are those of `vehd run`.
         progress: True shows a line on standard error; a function is called with the status after every step.
         """
         if until is not None and until != math.inf:
@@ -108,7 +108,7 @@ class Simulation:
         computes in axes of its own, as along a field, they are rotated to those of the laboratory once.
         Vesicles: position [(p+1)², 3], area_strain, Vm, tension, q [(p+1)²], velocity, force_bending, force_tension,
         force_electric, force_contact [(p+1)², 3]; None where the effect is absent. Forces act as in f = f_b + f_λ − f_E +
-        f_c. Numbers are those of the scene, dimensionless in one with [units].
+        f_contact. Numbers are those of the scene, dimensionless in one with [units].
         """
         return self._core.state
 

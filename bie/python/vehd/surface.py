@@ -54,8 +54,8 @@ class Operator:
 
     @property
     def weighted(self) -> "Operator":
-        """The operator that takes coefficients of J f, J the area element, in place of those of f: S and Stokes S still
-        return S[f], S′ and D′ return J S′[f] and J D′[f]; D and Stokes D are the same, and D′ takes f as well.
+        """The operator that takes coefficients of J f, J the area element, in place of those of f: S and Stokes S take
+        J f and return S[f], S′ takes J f and returns J S′[f], D′ takes f and returns J D′[f]; D and Stokes D are unchanged.
 
         On a strongly bent surface degree p resolves J f better than f.
         """
@@ -102,7 +102,7 @@ class Surface:
         """A shape as in the table [shape] of a scene: from_shape("ellipsoid", axes=[1, 1, 2]),
         from_shape("radial", base=1, amplitude=0.2, exponent=-3, modes=[{"n": 3, "m": 2, "a": 1}]), …
 
-        SceneError: as of a scene, without place.
+        SceneError: the shape is not accepted; the message names no file or line.
         """
         tables = {"shape": {"kind": kind, **keys}, "membrane": {}, "numerics": {"degree": degree, "dt": 1.0,
                                                                               "end_time": 0.0}}

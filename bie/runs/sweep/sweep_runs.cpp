@@ -50,7 +50,7 @@ std::vector<HistoryColumn> columns_of(const SweepFile& sweep) {
     if (found == known.end()) {
       std::vector<std::string_view> names;
       for (const HistoryColumn& other : known) names.push_back(other.name);
-      throw InputError(fmt::format("{}: \"columns\" has \"{}\", which history.csv of this scene has not; {}",
+      throw InputError(fmt::format("{}: \"columns\" has \"{}\", which history.csv of this scene does not have; {}",
                                    column.place, shortened(column.name), suggestion(column.name, names)));
     }
     columns.push_back(*found);

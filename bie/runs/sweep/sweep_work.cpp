@@ -163,8 +163,9 @@ class Workers {
     const int kills = ++n_kills_[run];
     const bool is_crash = std::set{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}.contains(signal);
     if (!is_crash && kills <= most_kills) return;
-    const std::string reason = is_crash ? fmt::format("ended its worker by signal {} ({})", signal, ::strsignal(signal))
-                                        : fmt::format("{} workers were killed at it", kills);
+    const std::string reason = is_crash
+                                   ? fmt::format("its worker was ended by signal {} ({})", signal, ::strsignal(signal))
+                                   : fmt::format("{} workers were killed while computing it", kills);
     if (run == 0) return stop("without a run: " + reason);
     const std::filesystem::path directory = task_.paths.run(task_.runs[run - 1]);
     if (!has_result(directory)) write_result(directory, {"crashed", reason});

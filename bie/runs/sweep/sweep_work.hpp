@@ -39,8 +39,8 @@ struct WorkerBoard {
   std::array<char, 512> problem;         ///< why the worker cannot write; ends with a 0
 };
 
-/// Why a worker ends; its run can be resumed.
-enum class WorkerEnd { nothing_left = 0, interrupted, cannot_write };
+/// Why a worker ends; its run can be resumed. A worker that throws exits with ExitCode::internal_error instead.
+enum class WorkerEnd { nothing_left = 0, interrupted = 10, cannot_write = 11 };
 
 /// One worker: claims one run after the other, computes each from its present state to its end and writes its result,
 /// also if the run stops or is refused.

@@ -347,7 +347,7 @@ class SceneChecks {
     if (conversion(of_run, scene_.units, scale)) return;
     const bool run_has_it = of_run && *of_run.*scale;
     const std::string this_scene = "this scene";
-    refuse_if(true, key, "{} needs a reference {}, which {} has and {} has not; accepted: {}, or {}", name,
+    refuse_if(true, key, "{} needs a reference {}, which {} has but {} lacks; accepted: {}, or {}", name,
               run_has_it ? scene_.shape.path : this_scene, run_has_it ? this_scene : scene_.shape.path,
               run_has_it ? fmt::format("\"{}\" in [units]", name) : "a run of a scene with [units]", way_out);
   }

@@ -159,10 +159,11 @@ class VesicleChecks {
   void check_symmetry() const {
     const Problem found = problem_of(scene_);
     if (found.symmetry.axisymmetric) return;
-    file_.refuse_key("numerics", "symmetry",
-                     "\"symmetry\" in [numerics] is axisymmetric, but shape, flow and field are not so about one axis; "
-                     "they have: {}",
-                     symmetry_text(found.symmetry, found.frame));
+    file_.refuse_key(
+        "numerics", "symmetry",
+        "\"symmetry\" in [numerics] is axisymmetric, but shape, flow and field have no common axis of symmetry; "
+        "symmetry found: {}",
+        symmetry_text(found.symmetry, found.frame));
   }
 
   const Scene& scene_;

@@ -43,8 +43,8 @@ class WallChecks {
     }
     if (!(scene_.electric->conductivity_in > 0.0 && scene_.electric->conductivity_out > 0.0)) {
       file_.refuse_key("wall", "field",
-                       "\"conductivity_in\" or \"conductivity_out\" in [electric] is 0; accepted beside a wall that "
-                       "touches the field: > 0, as small as it has to be");
+                       "\"conductivity_in\" or \"conductivity_out\" in [electric] is 0; accepted with \"field\" "
+                       "in [wall]: > 0, as small as needed");
     }
     const Vector3 field = vector_of(scene_.electric->field);
     const Vector3 normal_part = field.dot(wall_.normal) * wall_.normal;
@@ -116,8 +116,7 @@ class WallChecks {
                      thresholds::smallest_gap);
       }
       file_.refuse(table(),
-                   "{} is not on the side of [wall] that \"normal\" points to: by {:.3g} radii; accepted: all of "
-                   "it there",
+                   "{} extends {:.3g} radii beyond the wall; accepted: all of it on the side that \"normal\" points to",
                    called, -gap);
     }
   }

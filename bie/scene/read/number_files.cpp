@@ -37,22 +37,8 @@ bool is_at_end(std::istringstream& words) {
   return !(words >> more);
 }
 
-/// Opens a file of numbers.
-/// @param what  has the path, for messages
-std::ifstream opened(const std::string& name, const char* what) {
-  std::error_code error;
-  std::ifstream file(name);
-  if (!std::filesystem::is_regular_file(name, error) || !file) {
-    throw InputError(fmt::format("{}: no such file (\"path\" of {})", name, what));
-  }
-  return file;
-}
-
 void read_modes(PlaceScene& places, const std::string& name) {
-  if (!places.modes.empty()) {
-    throw InputError(fmt::format("{}: \"path\" of harmonics together with \"modes\"; accepted: one of them", name));
-  }
-  std::ifstream file = opened(name, "harmonics");
+  std::ifstream file(name);
   for_each_row(file, name, [&](std::istringstream& words, const std::string& place, const std::string& line) {
     HarmonicMode mode;
     const bool is_mode = words >> mode.n >> mode.m >> mode.a && is_at_end(words) && std::isfinite(mode.a);
@@ -67,11 +53,7 @@ void read_modes(PlaceScene& places, const std::string& name) {
 }
 
 void read_times(WaveformScene& waveform, const std::string& name) {
-  if (!waveform.times.empty() || !waveform.values.empty()) {
-    throw InputError(fmt::format(
-        "{}: the waveform has \"path\" together with \"times\" or \"values\"; accepted: one of them", name));
-  }
-  std::ifstream file = opened(name, "a waveform");
+  std::ifstream file(name);
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(name, error);
   if (error || bytes > most_bytes) {
@@ -95,24 +77,40 @@ void read_waveform_rows(WaveformScene& waveform, std::istream& stream, const std
   });
 }
 
-void read_number_files(Scene& scene, const std::filesystem::path& folder) {
-  const auto replace = [&](auto& owner, const auto& read) {
+void read_number_files(Scene& scene, const TomlFile& file, const std::filesystem::path& folder) {
+  /// @param numbers  keys of the same numbers, and whether the table has any of them
+  const auto replace = [&](auto& owner, const std::string& table, const char* numbers, bool has_numbers,
+                           const auto& read) {
     if (!owner.path) return;
-    read(owner, std::filesystem::absolute(folder / *owner.path).lexically_normal().string());
+    if (has_numbers) {
+      file.refuse_key(table, "path", "\"path\" in [{}] together with {}; accepted: one of them", table, numbers);
+    }
+    const std::string name = std::filesystem::absolute(folder / *owner.path).lexically_normal().string();
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(name, error) || !std::ifstream(name)) {
+      file.refuse_key(table, "path", "\"path\" in [{}] is {}: no such file", table, name);
+    }
+    read(owner, name);
     owner.path.reset();
   };
-  const auto replace_waveform = [&](auto& owner) {
-    if (owner && owner->waveform) replace(*owner->waveform, read_times);
+  const auto replace_modes = [&](auto& owner, const std::string& table) {
+    if (owner) replace(*owner, "membrane." + table, "\"modes\"", !owner->modes.empty(), read_modes);
+  };
+  const auto replace_waveform = [&](auto& owner, const std::string& table) {
+    if (!owner || !owner->waveform) return;
+    WaveformScene& waveform = *owner->waveform;
+    replace(waveform, table + ".waveform", "\"times\" or \"values\"",
+            !waveform.times.empty() || !waveform.values.empty(), read_times);
   };
   MembraneScene& membrane = scene.membrane;
-  for (auto* places : {&membrane.capacitance_by_place, &membrane.conductance_by_place, &membrane.bending_by_place,
-                       &membrane.curvature_by_place}) {
-    if (*places) replace(**places, read_modes);
-  }
-  if (membrane.pump) replace(*membrane.pump, read_modes);
-  replace_waveform(membrane.pump);
-  replace_waveform(scene.flow);
-  replace_waveform(scene.electric);
+  replace_modes(membrane.capacitance_by_place, "capacitance_by_place");
+  replace_modes(membrane.conductance_by_place, "conductance_by_place");
+  replace_modes(membrane.bending_by_place, "bending_by_place");
+  replace_modes(membrane.curvature_by_place, "curvature_by_place");
+  replace_modes(membrane.pump, "pump");
+  replace_waveform(membrane.pump, "membrane.pump");
+  replace_waveform(scene.flow, "flow");
+  replace_waveform(scene.electric, "electric");
 }
 
 }  // namespace vehd

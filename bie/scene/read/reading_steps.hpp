@@ -22,8 +22,9 @@ std::string source_of_scale(std::string_view scale);
 
 /// Replaces every `path` of a waveform or of a spatially varying property with the numbers of its file: lines of
 /// numbers separated by blanks or a comma; # starts a comment. A run can then continue without the file.
+/// @param file    of the scene
 /// @param folder  where a relative path starts
-void read_number_files(Scene& scene, const std::filesystem::path& folder);
+void read_number_files(Scene& scene, const TomlFile& file, const std::filesystem::path& folder);
 
 /// Reads times and values of a waveform; `name` stands for the file in messages.
 void read_waveform_rows(WaveformScene& waveform, std::istream& stream, const std::string& name);

@@ -193,7 +193,7 @@ void require_short_keys(const std::string& text, const std::string& name) {
   constexpr int most_parts = 16;
   int line = 1;
   int dots = 0;
-  char quote = '\0';
+  char quote = '\0', before = '\n';
   for (const char letter : text) {
     if (letter == '\n') {
       ++line;
@@ -204,13 +204,16 @@ void require_short_keys(const std::string& text, const std::string& name) {
     } else if (letter == '"' || letter == '\'') {
       quote = letter;
     } else if (letter == '.') {
+      // Dots of a comment, such as a line of them, follow no part of a key.
+      if (before == '.' || before == '#') continue;
       if (++dots >= most_parts) {
-        throw InputError(fmt::format("{}:{}: a key of too many parts; accepted: at most {}", name, line, most_parts));
+        throw InputError(fmt::format("{}:{}: a key has too many parts; accepted: at most {}", name, line, most_parts));
       }
     } else if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '_' && letter != '-' &&
                letter != ' ' && letter != '\t') {
       dots = 0;
     }
+    if (letter != ' ' && letter != '\t') before = letter;
   }
 }
 

@@ -110,7 +110,7 @@ void solve_velocities(const std::vector<VesicleTask>& tasks, const std::vector<M
   });
   for (std::size_t a = 0; a < tasks.size(); ++a) {
     if (!solved.interaction->exchange().is_image(a)) continue;
-    // What of an image follows from no field of its original.
+    // force_of_effects holds values on a grid and is not copied from the original.
     Forcing of_image = no_forcing(tasks[a]);
     add_effects(tasks[a], time, limit, of_image);
   }

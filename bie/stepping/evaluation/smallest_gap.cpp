@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "bie/potentials/nearest_points.hpp"
@@ -18,8 +17,6 @@ namespace {
 /// Gaps up to this many radii are searched for the degree that they require: wider ones need none above the lowest.
 constexpr double widest_gap = 2.0;
 
-double radius_of(const VesicleState& vesicle) { return std::sqrt(vesicle.reference_area / (4.0 * std::numbers::pi)); }
-
 /// The gaps between close vesicles, and those of all vesicles to the wall.
 std::vector<SmallestGap> all_gaps(const State& state, const Discretisation& discretisation,
                                   const std::optional<Wall>& wall) {
@@ -27,18 +24,18 @@ std::vector<SmallestGap> all_gaps(const State& state, const Discretisation& disc
   double largest = 0.0;
   for (const VesicleState& vesicle : state.vesicles) {
     membranes.push_back(vesicle.position);
-    largest = std::max(largest, radius_of(vesicle));
+    largest = std::max(largest, vesicle.radius());
   }
   std::vector<SmallestGap> gaps;
   for (const auto& [first, second, points] : close_pairs(membranes, widest_gap * largest)) {
-    const double radius = std::min(radius_of(state.vesicles[first]), radius_of(state.vesicles[second]));
+    const double radius = std::min(state.vesicles[first].radius(), state.vesicles[second].radius());
     const Vector3 middle = 0.5 * (points.on_first + points.on_second);
     gaps.push_back({points.gap, points.gap / radius, radius, first, second, middle});
   }
   for (std::size_t a = 0; wall && a < state.vesicles.size(); ++a) {
     const auto [distance, place] =
         nearest_to_wall(*wall, discretisation.vesicle(a).fine_transform(), state.vesicles[a].position);
-    const double radius = radius_of(state.vesicles[a]);
+    const double radius = state.vesicles[a].radius();
     gaps.push_back({distance, distance / radius, radius, a, a, place - 0.5 * distance * wall->normal, true});
   }
   return gaps;
@@ -85,8 +82,8 @@ void require_gap(const SmallestGap& gap, const SmallestGap& before, double spaci
       fmt::format("{} within {:.2g} radii of {} at ({:.3g}, {:.3g}, {:.3g})", who, std::max(gap.relative, 0.0),
                   gap.to_wall ? "the wall" : "each other", place.x(), place.y(), place.z());
   if (touches) {
-    throw ConvergenceError(fmt::format("{}; accepted: {:g}, up to which the layers between them are exact", where,
-                                       thresholds::smallest_gap));
+    throw ConvergenceError(fmt::format("{}; accepted: at least {:g}, the smallest gap for which the layers are tested",
+                                       where, thresholds::smallest_gap));
   }
   throw ConvergenceError(fmt::format("{} in one step, from {:.2g}", where, before.relative));
 }

@@ -26,10 +26,10 @@ struct VesicleFields {
   Matrix force_bending;   ///< f_b
   Matrix force_tension;   ///< f_λ
   Matrix force_electric;  ///< f_E = [[n·Σ_el]]
-  Matrix force_contact;   ///< f_c, added to f
+  Matrix force_contact;   ///< of the contact potential
   Vector tension;         ///< λ
   Vector charge;          ///< q = [[∂φ/∂n]]
-  Vector conductance;     ///< G_m if it varies, else empty
+  Vector conductance;     ///< G_m + g(s) of a membrane that porates, else empty
   Vector potential;       ///< V_m if it follows from free charges, else empty
   // In an averaged ac field these replace V_m and q, and the electric force is its mean over a period.
   Matrix potential_amplitude;  ///< of V_m, complex: the columns are real and imaginary part, [n_coefficients x 2]
@@ -88,7 +88,7 @@ struct VesicleDiagnostics {
   std::array<double, 5> shape_modes{no_direction, no_direction, no_direction, no_direction, no_direction};
   double Vm_pole_plus = 0,
          Vm_pole_minus = 0;  ///< where the line along the field leaves the membrane, 0 if that has no direction
-  double Vm_phase_deg = 0;   ///< of V_m at the former relative to an averaged field
+  double Vm_phase_deg = 0;   ///< phase of V_m at the plus pole against an averaged field
   Rheology rheology{};       ///< of this vesicle only
   // With poration.
   double conductance_max = 0.0;                    ///< largest G_m

@@ -44,8 +44,9 @@ void try_to_reach(const StepGoal& goal, double dt, int order, StepOperations& ph
     attempt.raw_area = raw_area_of(*sweeps.end);
     for (const Motion& vesicle : sweeps.end->vesicles) attempt.arrival_shifts.push_back(vesicle.arrival_shift);
   } else {
-    attempt.reason = fmt::format("a step is wrong by {:.1e} over its share of the tolerance; accepted: {:.1e}",
-                                 attempt.error_estimate, goal.tolerance);
+    attempt.reason = fmt::format(
+        "the estimated error of the step, divided by its share of the tolerance, is {:.1e}; accepted: {:.1e}",
+        attempt.error_estimate, goal.tolerance);
   }
 }
 
@@ -68,7 +69,7 @@ StepAttempt attempt_step(const StepStart& start, double dt, Instruments& instrum
     }
     const auto finite = [](const VesicleState& vesicle) { return is_finite(vesicle); };
     if (attempt.accepted && !std::ranges::all_of(attempt.state.vesicles, finite)) {
-      throw ConvergenceError("the state behind the step is not finite");
+      throw ConvergenceError("the state at the end of the step is not finite");
     }
   } catch (const ConvergenceError& error) {
     attempt.reject(error.what());

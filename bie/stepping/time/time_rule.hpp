@@ -9,17 +9,18 @@ namespace vehd {
 /// Nodes of one step of size 1 and how deferred correction works on them.
 struct TimeRule {
   std::vector<double> nodes;  ///< c_1 < … < c_M = 1
-  Matrix weights;             ///< q_mj of ∫_0^{c_m} over the points 0, c_1, …, c_M, [M x M+1]
-  /// d_m: a correction at node m is an implicit step of size d_m. They make I − D⁻¹Q nilpotent: infinitely stiff
-  /// components converge in M sweeps, while the sizes c_m leave a part of them (0.67 for M = 2) at every sweep.
+  Matrix weights;             ///< q_mj of ∫_0^{c_m} over the points 0, c_1, …, c_M, [M x M+1]; zero for order 1
+  /// d_m: a correction at node m is an implicit step of size d_m. From order 3 on they make I − D⁻¹Q nilpotent:
+  /// infinitely stiff components converge in M sweeps, while the sizes c_m leave a part of them (0.67 for M = 3) at
+  /// every sweep. For orders 1 and 2 the step is backward Euler.
   std::vector<double> implicit_sizes;
 };
 
 /// Order 1: the implicit Euler method. Order 2: the trapezoidal rule. Order 3: Radau IIA with two nodes. Orders 4 and
 /// 5: Radau IIA with three, whose own order is 5. Radau methods remove infinitely stiff components within the step.
 /// @param order  1 … highest_time_order
-/// Accuracy: polynomials are integrated to 1e-14 up to the degree of the rule, and infinitely stiff components converge
-/// in M sweeps to 1e-13 (tests/stepping/time/time_rules_test.cpp)
+/// Accuracy: polynomials are integrated to 1e-14 up to the degree of the rule, and from order 3 on infinitely stiff
+/// components converge in M sweeps to 1e-13 (tests/stepping/time/time_rules_test.cpp)
 /// Source: Radau IIA methods, Hairer and Wanner 1996; sizes as in van der Houwen and Sommeijer 1991
 TimeRule time_rule(int order);
 

@@ -164,7 +164,7 @@ BOOST_FIXTURE_TEST_CASE(truncated_run_file_is_not_resumed, StoppedRun) {
         [&] {
           const ProgramResult result = run_command(command);
           BOOST_TEST(result.exit_code == 1);
-          BOOST_TEST(result.errors.starts_with(snapshots + ": no readable HDF5 file"), result.errors);
+          BOOST_TEST(result.errors.starts_with(snapshots + ": not a readable HDF5 file"), result.errors);
         });
   }
   finish();

@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(columns_are_those_of_the_history) {
   BOOST_CHECK_EXCEPTION(static_cast<void>(columns("\"extent_q\"")), vehd::InputError, [&](const auto& error) {
     return std::string(error.what()) == directory / "sweep.toml" +
                                             ":2: \"columns\" has \"extent_q\", which history.csv of "
-                                            "this scene has not; did you mean \"extent_x\"?";
+                                            "this scene does not have; did you mean \"extent_x\"?";
   });
 }
 

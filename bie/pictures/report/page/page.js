@@ -45,7 +45,7 @@ class Report {
       element("div", {}, element("dt", { text: name }), element("dd", { text: value }))));
     fillTable(byId("limits"), ["number", "worst", "limit", "", "meaning"], run.verdict.limits.map((row) => [
       { code: row.name }, { number: textOf(row.worst, 3) }, { number: `${row.least ? "≥" : "≤"} ${textOf(row.limit)}` },
-      { text: row.holds ? "✓ holds" : "✗ exceeded", class: row.holds ? "ok" : "over" }, { text: row.meaning }]));
+      { text: row.holds ? "✓ holds" : row.least ? "✗ below the limit" : "✗ above the limit", class: row.holds ? "ok" : "over" }, { text: row.meaning }]));
     byId("numbers").open = run.verdict.limits.some((row) => !row.holds);
     if (run.groups.length > 0) {
       fillTable(byId("groups"), ["", "", "value", "meaning"], run.groups.map((row) => [
