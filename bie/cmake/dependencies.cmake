@@ -1,4 +1,4 @@
-# What vehd is built with. All missing dependencies are reported at once, with their Debian packages, and written to
+# Dependencies of vehd. All missing ones are reported at once, with their Debian packages, and written to
 # missing_packages.txt of the build folder, where bie/setup.cmake reads it.
 set(missing_names)
 set(missing_packages)

@@ -1,7 +1,6 @@
 #include "bie/pictures/sweep_means.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>

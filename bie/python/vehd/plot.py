@@ -64,7 +64,8 @@ def _mesh(surface: Surface, values: Optional[np.ndarray], n: int) -> tuple:
 
 def shape(what: Any, values: Optional[np.ndarray] = None, axes: Optional[Any] = None, n: int = 40,
           cmap: str = "coolwarm") -> Any:
-    """A surface or vesicle in three dimensions, coloured by the field with the coefficients `values`, [(p+1)²], if given. Returns the axes."""
+    """A surface or vesicle in three dimensions, coloured by the field with the coefficients `values`, [(p+1)²], if given.
+    Returns the axes."""
     import matplotlib.pyplot as plt
     from matplotlib import cm, colors
 
