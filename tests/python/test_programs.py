@@ -47,6 +47,13 @@ class Programs(InFolder):
         self.assertEqual([line.split(":")[0] for line in lines], ["one alone", "gap 0.10", "gap 0.20", "gap 0.69"])
         self.assertIn(" 1.00 times one alone", lines[0])
 
+    def test_cost_of_a_step_of_a_suspension_is_a_row_of_the_table_of_the_page(self):
+        result = subprocess.run([sys.executable, SOURCE / "docs/examples/suspension_step_cost.py", "--steps", "1",
+                                 "3:6"], capture_output=True, text=True, check=True)
+        heading, _, row = result.stdout.splitlines()
+        self.assertIn(heading, (SOURCE / "docs/several_vesicles.md").read_text())
+        self.assertRegex(row, r"^\| 3 \| 6 \| [\d.e-]+ \| [\d.e-]+ s \| 0\.\d GB \| \d+ \|$")
+
     def test_printed_output_of_a_page_is_compared_and_renewed(self):
         page = self.folder / "page.md"
         shown = "```sh\nbuild/vehd verify --degree 6\n```\n\n```text\n…\n     6   {}   {} …\n```\n"
