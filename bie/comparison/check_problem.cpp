@@ -116,7 +116,7 @@ void require_plain_charging(const FrozenState& frozen) {
   };
   if (relaxes_charge(frozen.model)) refuse("displacement currents");
   for (const VesicleModel& vesicle : frozen.model.vesicles) {
-    if (vesicle.reaction || vesicle.by_place || vesicle.pump) {
+    if (vesicle.reaction || vesicle.has_varying_properties || vesicle.pump) {
       refuse("a membrane that porates or varies in space");
     }
   }

@@ -76,12 +76,12 @@ void require_known_effects(const Scene& scene, const std::filesystem::path& file
     refuse(file, "has an averaged ac field; vehd check accepts fields that are followed in time, without \"average\"");
   }
   for (const Scene& one : each_alone(scene)) {
-    if (one.membrane.bending_by_place || one.membrane.curvature_by_place) {
+    if (one.membrane.varying_bending || one.membrane.varying_curvature) {
       refuse(file,
              "has a spatially varying bending modulus or spontaneous curvature; vehd check accepts [membrane] without "
-             "\"bending_by_place\" and \"curvature_by_place\"");
+             "\"varying_bending\" and \"varying_curvature\"");
     }
-    if (one.membrane.capacitance_by_place && has_relaxing_charge(one)) {
+    if (one.membrane.varying_capacitance && has_relaxing_charge(one)) {
       refuse(file,
              "has a spatially varying capacitance, with displacement currents; vehd check accepts one "
              "of them");
@@ -197,11 +197,11 @@ class VesicleOfSnapshot {
     fields.force_electric = coefficients("force_electric", 3, electric);
     fields.charge = coefficients("q", 1, electric);
     if (electric) read_potential(relaxes_charge(model), of_model.charging.capacitance, state, fields);
-    state.material.capacitance = coefficients("capacitance", 1, electric && membrane.capacitance_by_place);
+    state.material.capacitance = coefficients("capacitance", 1, electric && membrane.varying_capacitance);
     state.material.pump_current = coefficients("pump_current", 1, electric && membrane.pump);
     // The stored conductance is the sum of those of the pores and of the membrane.
-    if (membrane.conductance_by_place) of_model.reaction.reset();
-    state.material.conductance = coefficients("conductance", 1, electric && membrane.conductance_by_place);
+    if (membrane.varying_conductance) of_model.reaction.reset();
+    state.material.conductance = coefficients("conductance", 1, electric && membrane.varying_conductance);
     state.poration = coefficients("poration", 1, of_model.reaction != nullptr);
     fields.conductance = coefficients("conductance", 1, of_model.reaction != nullptr);
     // In the file they are continued by zeros to its own degree, at which nothing was solved.

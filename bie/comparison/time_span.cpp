@@ -150,7 +150,7 @@ TimeSpan read_time_span(const std::filesystem::path& file, const std::string& fr
   const std::size_t n_vesicles = end.model.vesicles.size();
   refuse_if(n_vesicles > 1, fmt::format("has {} vesicles; --from accepts a run of one", n_vesicles));
   const VesicleModel& vesicle = vesicle_of_span(end);
-  refuse_if(vesicle.reaction || vesicle.by_place || vesicle.pump,
+  refuse_if(vesicle.reaction || vesicle.has_varying_properties || vesicle.pump,
             "has a membrane that porates or varies in space; --from accepts runs with one that charges "
             "alike everywhere");
   refuse_if(relaxes_charge(end.model),

@@ -22,8 +22,8 @@ struct VesicleModel {
   ChargingParameters charging;                         ///< of the membrane
   std::optional<PorationCriterion> criterion{};        ///< reported in the history
   std::shared_ptr<const PorationReaction> reaction{};  ///< null: poration does not change the conductance
-  bool by_place = false;           ///< some properties vary over the membrane, see SurfaceFields::material
-  std::optional<Waveform> pump{};  ///< of the pump current; empty without a pump
+  bool has_varying_properties = false;  ///< some properties vary over the membrane, see SurfaceFields::material
+  std::optional<Waveform> pump{};       ///< of the pump current; empty without a pump
   /// Effects on this vesicle only: gravity, spontaneous curvature, …
   std::vector<std::shared_ptr<const ExplicitEffect>> effects;
 };

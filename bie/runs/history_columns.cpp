@@ -188,7 +188,7 @@ const std::vector<HistoryColumn>& columns_of_each() {
 }
 
 /// Columns of a membrane with spatially varying parameters only; they follow those of poration.
-std::vector<HistoryColumn> place_columns() {
+std::vector<HistoryColumn> varying_columns() {
   return {{"elastic_energy", "energy", of_vesicle<&D::elastic_energy>},
           {"net_force_x", "force", of_vesicle<&D::net_force_x>},
           {"net_force_y", "force", of_vesicle<&D::net_force_y>},
@@ -262,7 +262,7 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
     std::array<std::array<OfRows, 4>, n_poration_models + 1> all;
     for (std::size_t model = 0; model < all.size(); ++model) {
       for (std::size_t others = 0; others < 4; ++others) {
-        const bool by_place = others % 2 > 0, wall = others / 2 > 0;
+        const bool varying = others % 2 > 0, wall = others / 2 > 0;
         for (std::size_t rows = 0; rows < usual.size(); ++rows) {
           std::vector<HistoryColumn>& columns = all.at(model).at(others).at(rows) = *usual.at(rows);
           const auto append = [&](const std::vector<HistoryColumn>& more) {
@@ -271,7 +271,7 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
           const bool reacts = model > 1, of_whole = rows == HistoryKind::of_all;
           // With several vesicles, vesicles.csv has the columns of porosity and pores.
           if (model > 0 && !(reacts && of_whole)) append(poration_columns(static_cast<PorationModel>(model - 1)));
-          if (by_place && !of_whole) append(place_columns());
+          if (varying && !of_whole) append(varying_columns());
           if (wall) append(wall_columns(static_cast<HistoryKind::Rows>(rows)));
           if (rows != HistoryKind::of_each) append({{"wrinkle_growth", "1", wrinkle_growth, ColumnMeaning::method}});
           if (!of_whole) append({{"shape_rate", "1/time", of_vesicle<&D::shape_rate>}});
@@ -284,13 +284,13 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
     return all;
   }();
   const std::size_t model = kind.poration ? static_cast<std::size_t>(*kind.poration) + 1 : 0;
-  return of_kinds.at(model).at((kind.by_place ? 1 : 0) + (kind.wall ? 2 : 0)).at(kind.rows);
+  return of_kinds.at(model).at((kind.varying ? 1 : 0) + (kind.wall ? 2 : 0)).at(kind.rows);
 }
 
 HistoryKind history_kind(const Scene& scene) {
   HistoryKind kind(scene.vesicles.size() > 1 ? HistoryKind::of_all : HistoryKind::of_one);
   if (scene.poration) kind.poration = scene.poration->model;
-  kind.by_place = has_places(scene);
+  kind.varying = has_varying_properties(scene);
   kind.wall = scene.wall.has_value();
   return kind;
 }

@@ -101,25 +101,26 @@ auto add_waveform(auto waveform) {
 }
 
 /// Adds the keys of a table for a spatially varying property.
-auto add_places(auto places) {
-  places.word("kind", &PlaceScene::kind, {"harmonics", "cap", "file"},
-              "the value in [membrane] times a factor; harmonics: base + s at the initial (θ, φ) of the material "
-              "point; cap: one "
-              "factor within a round cap, another outside; file: harmonics of a text file",
-              required);
-  auto harmonics = places.of("harmonics", "file"), cap = places.of("cap");
-  harmonics.key("base", &PlaceScene::base, {"", "1", "constant part of the factor"});
-  harmonics.key("modes", &PlaceScene::modes,
+auto add_varying_property(auto table) {
+  table.word("kind", &VaryingProperty::kind, {"harmonics", "cap", "file"},
+             "the value in [membrane] times a factor; harmonics: base + s at the initial (θ, φ) of the material "
+             "point; cap: one "
+             "factor within a round cap, another outside; file: harmonics of a text file",
+             required);
+  auto harmonics = table.of("harmonics", "file"), cap = table.of("cap");
+  harmonics.key("base", &VaryingProperty::base, {"", "1", "constant part of the factor"});
+  harmonics.key("modes", &VaryingProperty::modes,
                 {"", "1", "s = sum of a Re Y_n^m of Eq. (17), entries {n, m, a}; m < 0 takes Im Y_n^|m|; absent: 0"});
-  places.of("file").key("path", &PlaceScene::path,
-                        {"", "", "text file of lines \"n m a\", relative to the scene file; absent: modes"});
-  cap.key("axis", &PlaceScene::axis, {"", "1", "through the middle of the cap"});
-  cap.key("angle_deg", &PlaceScene::angle_deg, degrees, {"α", "1", "from the axis to the edge, in degrees", required});
-  cap.key("width_deg", &PlaceScene::width_deg, degrees,
+  table.of("file").key("path", &VaryingProperty::path,
+                       {"", "", "text file of lines \"n m a\", relative to the scene file; absent: modes"});
+  cap.key("axis", &VaryingProperty::axis, {"", "1", "through the middle of the cap"});
+  cap.key("angle_deg", &VaryingProperty::angle_deg, degrees,
+          {"α", "1", "from the axis to the edge, in degrees", required});
+  cap.key("width_deg", &VaryingProperty::width_deg, degrees,
           {"w", "1", "of the edge, in degrees: the share of the cap is ½ erfc((cos α − cos γ)/(w sin α))"});
-  cap.key("inside", &PlaceScene::inside, {"", "1", "factor within the cap", required});
-  cap.key("outside", &PlaceScene::outside, {"", "1", "factor outside"});
-  return places;
+  cap.key("inside", &VaryingProperty::inside, {"", "1", "factor within the cap", required});
+  cap.key("outside", &VaryingProperty::outside, {"", "1", "factor outside"});
+  return table;
 }
 
 void add_membrane(auto& scene) {
@@ -151,16 +152,16 @@ void add_membrane(auto& scene) {
   membrane.key("conductance", &MembraneScene::conductance, not_negative,
                {"G_m", "conductance/area", "used with [electric] only"});
   membrane.key("mobile", &MembraneScene::mobile, {"", "", "false: the shape is frozen and only the membrane charges"});
-  add_places(membrane.optional("membrane.capacitance_by_place", &MembraneScene::capacitance_by_place,
-                               "spatially varying C_m; absent: uniform"));
-  add_places(membrane.optional("membrane.conductance_by_place", &MembraneScene::conductance_by_place,
-                               "spatially varying G_m; absent: uniform"));
-  add_places(membrane.optional("membrane.bending_by_place", &MembraneScene::bending_by_place,
-                               "spatially varying κ_B; absent: uniform"));
-  add_places(membrane.optional("membrane.curvature_by_place", &MembraneScene::curvature_by_place,
-                               "spatially varying spontaneous curvature c; absent: uniform"));
-  auto pump = add_places(membrane.optional("membrane.pump", &MembraneScene::pump,
-                                           "current that the membrane pumps, spatially varying; absent: none"));
+  add_varying_property(membrane.optional("membrane.varying_capacitance", &MembraneScene::varying_capacitance,
+                                         "spatially varying C_m; absent: uniform"));
+  add_varying_property(membrane.optional("membrane.varying_conductance", &MembraneScene::varying_conductance,
+                                         "spatially varying G_m; absent: uniform"));
+  add_varying_property(membrane.optional("membrane.varying_bending", &MembraneScene::varying_bending,
+                                         "spatially varying κ_B; absent: uniform"));
+  add_varying_property(membrane.optional("membrane.varying_curvature", &MembraneScene::varying_curvature,
+                                         "spatially varying spontaneous curvature c; absent: uniform"));
+  auto pump = add_varying_property(membrane.optional(
+      "membrane.pump", &MembraneScene::pump, "current that the membrane pumps, spatially varying; absent: none"));
   pump.of("harmonics", "cap", "file")
       .key("current", &PumpScene::current,
            {"J_p", "current/area", "outwards, where the factor is 1: C_m dV_m/dt + G_m V_m + J_p = −σ_i ∂φ_i/∂n",

@@ -53,14 +53,15 @@ VesicleModel vesicle_of(const Scene& scene) {
   VesicleModel vesicle;
   vesicle.viscosity_ratio = scene.fluid.viscosity_ratio;
   vesicle.inextensible = m.inextensible;
-  vesicle.by_place = m.capacitance_by_place || m.conductance_by_place || m.bending_by_place || m.curvature_by_place;
+  vesicle.has_varying_properties =
+      m.varying_capacitance || m.varying_conductance || m.varying_bending || m.varying_curvature;
   if (const double modulus = m.bending_modulus.value_or(0.0); modulus > 0.0) {
     vesicle.bending = BendingParameters{modulus};
     if (m.undulations) {
       vesicle.undulations = Undulations{m.temperature.value_or(0.0), 0.5 * modulus, m.stretching_modulus,
                                         m.rest_area.value_or(0.0), m.reference_tension.value_or(0.0)};
     }
-    if (m.spontaneous_curvature != 0.0 && !m.bending_by_place && !m.curvature_by_place) {
+    if (m.spontaneous_curvature != 0.0 && !m.varying_bending && !m.varying_curvature) {
       vesicle.effects.push_back(std::make_shared<SpontaneousCurvatureEffect>(
           SpontaneousCurvatureParameters{modulus, m.spontaneous_curvature}));
     }

@@ -91,21 +91,21 @@ inline bool alternates(const WaveformScene& waveform) {
 }
 
 /// Values of kind in the table of a spatially varying property.
-enum class PlaceKind { harmonics, cap, file };
+enum class VariationKind { harmonics, cap, file };
 
 /// Factor of a property of the membrane over its parameter sphere; the members used depend on the kind.
-struct PlaceScene {
-  PlaceKind kind = PlaceKind::harmonics;
+struct VaryingProperty {
+  VariationKind kind = VariationKind::harmonics;
   double base = 1.0;
   std::vector<HarmonicMode> modes;
   std::optional<std::string> path;  ///< file of modes; absent once it is read
   Triple axis{0.0, 0.0, 1.0};
   double angle_deg = 30.0, width_deg = 15.0, inside = 1.0, outside = 1.0;
-  bool operator==(const PlaceScene&) const = default;
+  bool operator==(const VaryingProperty&) const = default;
 };
 
 /// Table [membrane.pump].
-struct PumpScene : PlaceScene {
+struct PumpScene : VaryingProperty {
   double current = 0.0;
   std::optional<WaveformScene> waveform;  ///< absent: constant
   bool operator==(const PumpScene&) const = default;
@@ -121,7 +121,7 @@ struct MembraneScene {
   double capacitance = 1.0;
   double conductance = 0.0;
   bool mobile = true;
-  std::optional<PlaceScene> capacitance_by_place{}, conductance_by_place{}, bending_by_place{}, curvature_by_place{};
+  std::optional<VaryingProperty> varying_capacitance{}, varying_conductance{}, varying_bending{}, varying_curvature{};
   std::optional<PumpScene> pump{};
   bool operator==(const MembraneScene&) const = default;
 };
@@ -278,15 +278,16 @@ inline bool takes_stored_potential(const Scene& scene) {
 }
 
 /// Does a membrane have spatially varying properties or a pump?
-inline bool has_places(const MembraneScene& membrane) {
-  return membrane.capacitance_by_place || membrane.conductance_by_place || membrane.bending_by_place ||
-         membrane.curvature_by_place || membrane.pump;
+inline bool has_varying_properties(const MembraneScene& membrane) {
+  return membrane.varying_capacitance || membrane.varying_conductance || membrane.varying_bending ||
+         membrane.varying_curvature || membrane.pump;
 }
 
 /// Does any vesicle have such a membrane?
-inline bool has_places(const Scene& scene) {
-  return has_places(scene.membrane) ||
-         std::ranges::any_of(scene.vesicles, [](const VesicleScene& vesicle) { return has_places(vesicle.membrane); });
+inline bool has_varying_properties(const Scene& scene) {
+  return has_varying_properties(scene.membrane) || std::ranges::any_of(scene.vesicles, [](const VesicleScene& vesicle) {
+           return has_varying_properties(vesicle.membrane);
+         });
 }
 
 }  // namespace vehd

@@ -10,7 +10,7 @@ namespace {
 const std::string scene_text =
     "[shape]\nkind = 'ellipsoid'\naxes = [1.0, 1.15, 1.3]\nrotation = [0.3, 1.0, 0.2, 35.0]\n"
     "[membrane]\nmobile = false\ncapacitance = 0.5\nconductance = 0.3\n"
-    "[membrane.capacitance_by_place]\nkind = 'harmonics'\nmodes = [{n = 1, m = 1, a = 0.3}]\n"
+    "[membrane.varying_capacitance]\nkind = 'harmonics'\nmodes = [{n = 1, m = 1, a = 0.3}]\n"
     "[membrane.pump]\ncurrent = 0.4\nkind = 'harmonics'\nmodes = [{n = 1, m = -1, a = 1.0}, {n = 2, m = 0, a = 0.5}]\n"
     "[electric]\nfield = [0.3, 0.2, 1.0]\nconductivity_in = 1.0\nconductivity_out = 2.0\npermittivity = 0.3\n"
     "[poration]\nmodel = 'pores'\ncreation_rate = 1.0\ncreation_Vm = 0.5\nrest_density = 2.0\npore_radius = 0.1\n"

@@ -301,7 +301,7 @@ BOOST_AUTO_TEST_CASE(damage_of_pores_is_noticed_and_that_of_places_is_not) {
   const std::string membrane =
       tilted +
       "[membrane]\nmobile = false\ncapacitance = 0.5\nconductance = 0.3\n"
-      "[membrane.capacitance_by_place]\nkind = 'harmonics'\nmodes = [{n = 1, m = 1, a = 0.3}]\n"
+      "[membrane.varying_capacitance]\nkind = 'harmonics'\nmodes = [{n = 1, m = 1, a = 0.3}]\n"
       "[membrane.pump]\ncurrent = 0.4\nkind = 'harmonics'\nmodes = [{n = 1, m = -1, a = 1.0}, {n = 2, m = 0, a = "
       "0.5}]\n";
   require_noticed(
@@ -316,8 +316,7 @@ BOOST_AUTO_TEST_CASE(damage_of_pores_is_noticed_and_that_of_places_is_not) {
              [](vehd::VesicleState& state, double share) { state.material.capacitance *= 1.0 + share; }),
        given("pump_current", "",
              [](vehd::VesicleState& state, double share) { state.material.pump_current *= 1.0 + share; })});
-  require_noticed(membrane +
-                      "[membrane.conductance_by_place]\nkind = 'harmonics'\nmodes = [{n = 1, m = 0, a = 0.5}]\n" +
+  require_noticed(membrane + "[membrane.varying_conductance]\nkind = 'harmonics'\nmodes = [{n = 1, m = 0, a = 0.5}]\n" +
                       oblique_field + two_steps,
                   {given("conductance", "",
                          [](vehd::VesicleState& state, double share) { state.material.conductance *= 1.0 + share; })});

@@ -108,9 +108,9 @@ class StartedRun {
 
 // Regression: a missing field was read as an empty one, and the check ended elsewhere.
 BOOST_AUTO_TEST_CASE(fields_that_are_missing_or_have_another_name_are_named) {
-  const std::string by_place =
-      "[membrane.capacitance_by_place]\nkind = 'harmonics'\nmodes = [{n = 1, m = 0, a = 0.1}]\n"
-      "[membrane.conductance_by_place]\nkind = 'harmonics'\nmodes = [{n = 2, m = 0, a = 0.1}]\n";
+  const std::string varying =
+      "[membrane.varying_capacitance]\nkind = 'harmonics'\nmodes = [{n = 1, m = 0, a = 0.1}]\n"
+      "[membrane.varying_conductance]\nkind = 'harmonics'\nmodes = [{n = 2, m = 0, a = 0.1}]\n";
   const std::string pores =
       "[poration]\nmodel = 'porosity'\nthreshold_Vm = 1.0\nporated_conductance = 1.0\nporation_time = 1.0\n"
       "resealing_time = 2.0\n";
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(fields_that_are_missing_or_have_another_name_are_named) {
       "[contact]\nenergy = 0.1\nrange = 0.5\n[[vesicle]]\nname = 'left'\n[[vesicle]]\nname = "
       "'right'\nshape.centre = [3.0, 0.0, 0.0]\n";
   for (const std::string& scene : {start + numerics, start + "displacement_current = true\n" + numerics,
-                                   start + by_place + numerics, start + pores + numerics, start + numerics + pair}) {
+                                   start + varying + numerics, start + pores + numerics, start + numerics + pair}) {
     StartedRun run(scene);
     for (const std::string& vesicle : run.vesicles) {
       for (const std::string& field : run.fields) {
@@ -207,15 +207,15 @@ BOOST_AUTO_TEST_CASE(fields_that_the_elements_do_not_support_are_refused) {
   BOOST_TEST(message(poration + "\"porosity\"\nporated_conductance = 1\nporation_time = 1\nresealing_time = 2\n") ==
              "");
   BOOST_TEST(message(poration + "\"criterion\"\n") == "");
-  const auto by_place = [](const std::string& property) {
-    return "[membrane]\nbending_modulus = 0.1\nconductance = 1\n[membrane." + property +
-           "_by_place]\nkind = \"harmonics\"\nmodes = [{n = 1, m = 0, a = 0.1}]\n";
+  const auto varying = [](const std::string& property) {
+    return "[membrane]\nbending_modulus = 0.1\nconductance = 1\n[membrane.varying_" + property +
+           "]\nkind = \"harmonics\"\nmodes = [{n = 1, m = 0, a = 0.1}]\n";
   };
-  BOOST_TEST(message(by_place("capacitance")) == "");
-  BOOST_TEST(message(by_place("conductance")) == "");
-  BOOST_TEST(message("displacement_current = true\n" + by_place("conductance")) == "");
-  BOOST_TEST(message(by_place("bending")).find("spatially varying bending modulus") != std::string::npos);
-  BOOST_TEST(message("displacement_current = true\n" + by_place("capacitance")).find("displacement currents") !=
+  BOOST_TEST(message(varying("capacitance")) == "");
+  BOOST_TEST(message(varying("conductance")) == "");
+  BOOST_TEST(message("displacement_current = true\n" + varying("conductance")) == "");
+  BOOST_TEST(message(varying("bending")).find("spatially varying bending modulus") != std::string::npos);
+  BOOST_TEST(message("displacement_current = true\n" + varying("capacitance")).find("displacement currents") !=
              std::string::npos);
 }
 

@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(costs_without_time_to_measure_them_are_unknown) {
 BOOST_AUTO_TEST_CASE(modes_of_a_higher_degree_than_that_of_trial_runs) {
   const std::string text =
       "[shape]\nkind = 'radial'\nmodes = [{n = 30, m = 0, a = 0.02}]\n[membrane]\nbending_modulus = 0.1\n"
-      "[membrane.bending_by_place]\nkind = 'harmonics'\nmodes = [{n = 30, m = 0, a = 0.1}]\n[numerics]\ndegree = 32\n";
+      "[membrane.varying_bending]\nkind = 'harmonics'\nmodes = [{n = 30, m = 0, a = 0.1}]\n[numerics]\ndegree = 32\n";
   BOOST_CHECK_NO_THROW(planned(text + "tolerance = 1e-4\nend_time = 1e-4\n"));
   BOOST_CHECK_NO_THROW(planned(text + "dt = 1e-4\nend_time = 1e-4\n"));
 }

@@ -27,7 +27,7 @@ std::vector<NamedScene> all_scenes() {
   result.push_back({"two_vesicles_pores", read_scene(source / "tests/invariance/two_vesicles_pores.toml")});
   result.push_back({"contact", read_scene(source / "tests/invariance/contact.toml")});
   result.push_back({"averaged", read_scene(source / "tests/invariance/averaged.toml")});
-  for (const char* name : {"poration_criterion", "porosity", "pores", "by_place"}) {
+  for (const char* name : {"poration_criterion", "porosity", "pores", "varying_membrane"}) {
     result.push_back({name, read_scene(source / "tests/invariance" / (std::string(name) + ".toml"))});
   }
   for (const auto& path : files_ending(source / "tests/hard/scenes", ".toml")) {

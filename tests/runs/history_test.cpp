@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(a_membrane_that_porates_and_differs_from_place_to_place_has
   const std::size_t usual = vehd::history_columns(kind).size();
   kind.poration = vehd::PorationModel::pores;
   const std::size_t of_pores = vehd::history_columns(kind).size();
-  kind.by_place = true;
+  kind.varying = true;
   const auto& both = vehd::history_columns(kind);
   BOOST_TEST(of_pores == usual + 3);
   BOOST_TEST_REQUIRE(both.size() == of_pores + 4);
@@ -75,8 +75,8 @@ BOOST_AUTO_TEST_CASE(beside_a_wall_gap_and_force_have_columns) {
     };
     BOOST_TEST(count("gap_wall") == 0);
     kind.wall = true;
-    for (const bool by_place : {false, true}) {
-      kind.by_place = by_place;
+    for (const bool varying : {false, true}) {
+      kind.varying = varying;
       BOOST_TEST(count("gap_wall") == 1);
       BOOST_TEST(count("force_wall") == 1);
       BOOST_TEST(count("gap_degree") == (rows == vehd::HistoryKind::of_each ? 0 : 1));

@@ -42,8 +42,8 @@ BOOST_AUTO_TEST_CASE(undulations_need_a_tension_and_the_keys_of_their_size) {
   BOOST_TEST(problem(on + "temperature = 0.1\ninextensible = false\n") ==
              start + "has no effect without a tension; accepted: \"inextensible\" and \"mobile\" true");
   BOOST_TEST(problem(on + "temperature = 0.1\n",
-                     "[membrane.bending_by_place]\nkind = \"cap\"\nangle_deg = 60\nwidth_deg = 40\ninside = 2\n") ==
-             start + "needs a uniform bending modulus; accepted: no [membrane.bending_by_place]");
+                     "[membrane.varying_bending]\nkind = \"cap\"\nangle_deg = 60\nwidth_deg = 40\ninside = 2\n") ==
+             start + "needs a uniform bending modulus; accepted: no [membrane.varying_bending]");
 }
 
 BOOST_AUTO_TEST_CASE(the_area_at_rest_is_given_once) {

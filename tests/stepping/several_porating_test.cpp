@@ -3,7 +3,7 @@
 
 #include "bie/physics/effects/poration.hpp"
 #include "bie/stepping/time/time_rule.hpp"
-#include "tests/stepping/by_place.hpp"
+#include "tests/stepping/varying_membrane.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(places_of_each_go_with_pores_and_displacement_currents) {
   Model model = with_vesicles(porating_model(true), 2);
   model.mobile = false;
   for (VesicleModel& vesicle : model.vesicles) {
-    vesicle.by_place = true;
+    vesicle.has_varying_properties = true;
     vesicle.pump.emplace();
   }
   const std::vector<Matrix> shapes{sphere(6), translated(sphere(6), {0.0, 2e4, 0.0})};
@@ -159,10 +159,10 @@ BOOST_AUTO_TEST_CASE(places_of_each_go_with_pores_and_displacement_currents) {
   const double dt = 0.1;
   const MembraneMaterial material = electric_material(6);
   const Discretisation together = testing::discretisation_of(shapes, settings), alone(settings, {});
-  const State both = run(model, together, start_by_place(model, together, shapes, dt, {material, material}), dt, 2);
+  const State both = run(model, together, varying_start(model, together, shapes, dt, {material, material}), dt, 2);
   Model of_one = model;
   of_one.vesicles.resize(1);
-  const State one = run(of_one, alone, start_by_place(of_one, alone, sphere(6), dt, material), dt, 2);
+  const State one = run(of_one, alone, varying_start(of_one, alone, sphere(6), dt, material), dt, 2);
   for (const VesicleState& vesicle : both.vesicles) {
     State copy = one;
     copy.vesicles[0] = vesicle;

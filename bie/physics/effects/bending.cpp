@@ -51,7 +51,7 @@ Vector curvature_increment(const Membrane& membrane, const SphereTransform& to, 
 }
 
 Matrix linearised_bending_force(const BendingParameters& bending, const Membrane& membrane, const Vector& increment) {
-  if (bends_by_place(membrane)) {
+  if (has_varying_bending(membrane)) {
     const Vector& modulus = membrane.material.bending_modulus;
     const Vector moment = modulus.cwiseProduct(Vector(membrane.fine.synthesize(increment)));
     return force_of_curvature({1.0}, membrane.surface, membrane.fine.synthesize_hessian(membrane.fine.analyze(moment)));
@@ -68,7 +68,7 @@ Matrix gradient_of(const Membrane& membrane, const Vector& values) {
 
 }  // namespace
 
-bool bends_by_place(const Membrane& membrane) { return membrane.material.bending_modulus.size() > 0; }
+bool has_varying_bending(const Membrane& membrane) { return membrane.material.bending_modulus.size() > 0; }
 
 double elastic_energy(const Membrane& membrane) {
   const Surface& s = membrane.surface;

@@ -39,10 +39,10 @@ Vector curvature_increment(const Membrane& membrane, const SphereTransform& to, 
 Matrix linearised_bending_force(const BendingParameters& bending, const Membrane& membrane, const Vector& increment);
 
 /// Do κ_B and c vary over the membrane? Then elastic_force replaces bending_force and SpontaneousCurvatureEffect.
-bool bends_by_place(const Membrane& membrane);
+bool has_varying_bending(const Membrane& membrane);
 
 /// ∫κ_B (H − c)² dA of a membrane with spatially varying elasticity.
-/// Accuracy: spectral (tests/physics/elasticity_by_place_test.cpp)
+/// Accuracy: spectral (tests/physics/varying_membrane_elasticity_test.cpp)
 double elastic_energy(const Membrane& membrane);
 
 /// Force per area on the fluid, −δE/δx of E = ∫κ_B (H − c)² dA with κ_B and c fixed to material points. With
@@ -51,9 +51,9 @@ double elastic_energy(const Membrane& membrane);
 /// The other terms are tangential: if the membrane slides along itself, other material comes under the same curvature.
 /// m enters truncated to degree p, as H in bending_force.
 /// @return  values on the upsampled grid, [n_points x 3]
-/// Accuracy: spectral; along smooth displacements the slope of E to 1e-5 (tests/physics/elasticity_by_place_test.cpp)
-/// Source: first variation of Helfrich's energy with coefficients that are functions of the material point; for uniform
-/// coefficients paper Eq. (2)
+/// Accuracy: spectral; along smooth displacements the slope of E to 1e-5
+/// (tests/physics/varying_membrane_elasticity_test.cpp) Source: first variation of Helfrich's energy with coefficients
+/// that are functions of the material point; for uniform coefficients paper Eq. (2)
 Matrix elastic_force(const Membrane& membrane);
 
 EffectRow bending_row();

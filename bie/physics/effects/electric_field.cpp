@@ -105,13 +105,13 @@ EffectRow pump_row() {
 EffectRow spatial_variation_row() {
   return {kSpatialVariation,
           [](const Model&, const VesicleModel& vesicle) -> MadeEffect {
-            if (!vesicle.by_place) return nullptr;
+            if (!vesicle.has_varying_properties) return nullptr;
             return described([] {
               return EffectDescription{
                   kSpatialVariation, "C_m, G_m, kappa_B or c as functions of the material point", {}, {}};
             });
           },
-          [](Model&, VesicleModel& vesicle) { vesicle.by_place = false; }};
+          [](Model&, VesicleModel& vesicle) { vesicle.has_varying_properties = false; }};
 }
 
 }  // namespace vehd

@@ -244,13 +244,12 @@ class SceneChecks {
   /// Spatially varying properties and the pump.
   void check_varying_properties() const {
     const MembraneScene& m = scene_.membrane;
-    check_property("capacitance_by_place", m.capacitance_by_place, true, "capacitance", m.capacitance,
-                   Sign::above_zero);
-    check_property("conductance_by_place", m.conductance_by_place, true, "conductance", m.conductance,
+    check_property("varying_capacitance", m.varying_capacitance, true, "capacitance", m.capacitance, Sign::above_zero);
+    check_property("varying_conductance", m.varying_conductance, true, "conductance", m.conductance,
                    Sign::zero_or_more);
-    check_property("bending_by_place", m.bending_by_place, false, "bending_modulus", m.bending_modulus.value_or(0.0),
+    check_property("varying_bending", m.varying_bending, false, "bending_modulus", m.bending_modulus.value_or(0.0),
                    Sign::above_zero);
-    check_property("curvature_by_place", m.curvature_by_place, false, "spontaneous_curvature", m.spontaneous_curvature,
+    check_property("varying_curvature", m.varying_curvature, false, "spontaneous_curvature", m.spontaneous_curvature,
                    Sign::any);
     if (!m.pump) return;
     check_property("pump", *m.pump, true, "current", 1.0, Sign::any);
@@ -259,18 +258,18 @@ class SceneChecks {
 
   /// @param value  of `key` in [membrane]: the property where the factor is 1
   /// @param sign   required sign of the property
-  void check_property(std::string_view name, const std::optional<PlaceScene>& places, bool is_electric,
+  void check_property(std::string_view name, const std::optional<VaryingProperty>& varying, bool is_electric,
                       std::string_view key, double value, Sign sign) const {
-    if (!places) return;
+    if (!varying) return;
     const std::string table = fmt::format("membrane.{}", name), kind = table + ".kind";
     refuse_if(is_electric && !scene_.electric, kind, "[{1}] has no effect without [electric]", table);
     refuse_if(!is_electric && !scene_.membrane.mobile, kind,
               "[{1}] has no effect while \"mobile\" in [membrane] is false", table);
-    check_factor(table, *places);
+    check_factor(table, *varying);
     refuse_if(value == 0.0, kind, "[{1}] has no effect: \"{2}\" in [membrane] is 0", table, key);
     if (sign == Sign::any) return;
     const int degree = scene_.numerics.order;
-    const Vector factor = SphereTransform(degree, make_grid(2 * degree)).synthesize(place_factor(*places, degree));
+    const Vector factor = SphereTransform(degree, make_grid(2 * degree)).synthesize(varying_factor(*varying, degree));
     // A truncated cap may fall below zero.
     const double least = factor.minCoeff(), cut = -largest_truncation * factor.maxCoeff();
     refuse_if(!(sign == Sign::zero_or_more ? least >= cut : least > 0.0), kind,
@@ -278,16 +277,16 @@ class SceneChecks {
               sign == Sign::zero_or_more ? ">= 0" : "> 0");
   }
 
-  void check_factor(const std::string& table, const PlaceScene& places) const {
+  void check_factor(const std::string& table, const VaryingProperty& varying) const {
     const int degree = scene_.numerics.order;
-    for (const HarmonicMode& mode : places.modes) {
+    for (const HarmonicMode& mode : varying.modes) {
       refuse_if(mode.n > degree, table + ".modes",
                 "{} has the degree n = {}; accepted: at most the degree {} of [numerics]", mode.n, degree);
     }
-    if (places.kind != PlaceKind::cap) return;
-    refuse_if(places.axis == Triple{}, table + ".axis", "{} is 0, 0, 0; accepted: a vector that is not zero");
-    refuse_if(places.angle_deg == 180.0, table + ".angle_deg", "{} is 180; accepted: less");
-    const double truncation = place_truncation(places, degree);
+    if (varying.kind != VariationKind::cap) return;
+    refuse_if(varying.axis == Triple{}, table + ".axis", "{} is 0, 0, 0; accepted: a vector that is not zero");
+    refuse_if(varying.angle_deg == 180.0, table + ".angle_deg", "{} is 180; accepted: less");
+    const double truncation = varying_factor_truncation(varying, degree);
     refuse_if(truncation > largest_truncation, table + ".width_deg",
               "the edge of the cap in [{1}] is wrong by {2:.2g} of its step at the degree {3} of [numerics]; accepted: "
               "at most {4:g}, by a wider \"width_deg\" or a higher degree",

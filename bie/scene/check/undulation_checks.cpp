@@ -30,8 +30,8 @@ void check_undulations(const Scene& scene, const TomlFile& file, const std::vect
   refuse_if(!m.inextensible || !m.mobile, key,
             "has no effect without a tension; accepted: \"inextensible\" and \"mobile\" true");
   refuse_if(!(m.bending_modulus.value_or(0.0) > 0.0), key, "needs \"bending_modulus\", which sets how much they store");
-  refuse_if(m.bending_by_place.has_value(), key,
-            "needs a uniform bending modulus; accepted: no [membrane.bending_by_place]");
+  refuse_if(m.varying_bending.has_value(), key,
+            "needs a uniform bending modulus; accepted: no [membrane.varying_bending]");
   refuse_if(!m.temperature && !m.stretching_modulus, key, "needs \"temperature\", \"stretching_modulus\" or both");
   refuse_if(m.rest_area && m.reference_tension, "rest_area",
             "sets the area at rest, and so does \"reference_tension\"; accepted: one of them");

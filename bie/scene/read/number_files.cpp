@@ -37,18 +37,18 @@ bool is_at_end(std::istringstream& words) {
   return !(words >> more);
 }
 
-void read_modes(PlaceScene& places, const std::string& name) {
+void read_modes(VaryingProperty& varying, const std::string& name) {
   std::ifstream file(name);
   for_each_row(file, name, [&](std::istringstream& words, const std::string& place, const std::string& line) {
     HarmonicMode mode;
     const bool is_mode = words >> mode.n >> mode.m >> mode.a && is_at_end(words) && std::isfinite(mode.a);
     if (!is_mode || mode.n < 0 || mode.n > highest_order || std::abs(mode.m) > mode.n ||
-        places.modes.size() == most_modes) {
+        varying.modes.size() == most_modes) {
       throw InputError(
           fmt::format("{}: is \"{}\"; accepted: three numbers n, m, a with |m| <= n <= {}, at most {} lines", place,
                       line, highest_order, most_modes));
     }
-    places.modes.push_back(mode);
+    varying.modes.push_back(mode);
   });
 }
 
@@ -103,10 +103,10 @@ void read_number_files(Scene& scene, const TomlFile& file, const std::filesystem
             !waveform.times.empty() || !waveform.values.empty(), read_times);
   };
   MembraneScene& membrane = scene.membrane;
-  replace_modes(membrane.capacitance_by_place, "capacitance_by_place");
-  replace_modes(membrane.conductance_by_place, "conductance_by_place");
-  replace_modes(membrane.bending_by_place, "bending_by_place");
-  replace_modes(membrane.curvature_by_place, "curvature_by_place");
+  replace_modes(membrane.varying_capacitance, "varying_capacitance");
+  replace_modes(membrane.varying_conductance, "varying_conductance");
+  replace_modes(membrane.varying_bending, "varying_bending");
+  replace_modes(membrane.varying_curvature, "varying_curvature");
   replace_modes(membrane.pump, "pump");
   replace_waveform(membrane.pump, "membrane.pump");
   replace_waveform(scene.flow, "flow");

@@ -138,16 +138,16 @@ double size_factor(const ShapeScene& shape, const Matrix& position) {
 /// Transform between a degree and a grid for sampling a cap, whose spectrum falls like a Gaussian.
 SphereTransform cap_transform(int order) { return {order, make_grid(2 * order + 32)}; }
 
-Vector cap_values(const PlaceScene& places, const SphereGrid& grid) {
+Vector cap_values(const VaryingProperty& varying, const SphereGrid& grid) {
   constexpr double degree = std::numbers::pi / 180.0;
-  const Vector3 axis = vector_of(places.axis).stableNormalized();
-  const double edge = std::cos(places.angle_deg * degree);
-  const double width = places.width_deg * degree * std::sin(places.angle_deg * degree);
+  const Vector3 axis = vector_of(varying.axis).stableNormalized();
+  const double edge = std::cos(varying.angle_deg * degree);
+  const double width = varying.width_deg * degree * std::sin(varying.angle_deg * degree);
   Vector values(grid.n_points());
   for (Index i = 0; i < values.size(); ++i) {
     const Vector3 r = direction(grid.theta[i / grid.n_phi], grid.phi[i % grid.n_phi]);
     const double share = 0.5 * std::erfc((edge - axis.dot(r)) / width);
-    values[i] = places.outside + (places.inside - places.outside) * share;
+    values[i] = varying.outside + (varying.inside - varying.outside) * share;
   }
   return values;
 }
@@ -203,40 +203,40 @@ Extremes radius_extremes(const Scene& scene) {
   return {none, none};
 }
 
-Vector place_factor(const PlaceScene& places, int order) {
-  if (places.kind != PlaceKind::cap) {
-    Vector factor = sum_of_modes(places.modes, order);
-    factor[0] += places.base * coefficient_of_one;
+Vector varying_factor(const VaryingProperty& varying, int order) {
+  if (varying.kind != VariationKind::cap) {
+    Vector factor = sum_of_modes(varying.modes, order);
+    factor[0] += varying.base * coefficient_of_one;
     return factor;
   }
   const SphereTransform transform = cap_transform(order);
-  return without_rounding(transform.analyze(cap_values(places, transform.grid()))).col(0);
+  return without_rounding(transform.analyze(cap_values(varying, transform.grid()))).col(0);
 }
 
-double place_truncation(const PlaceScene& places, int order) {
-  const double difference = std::abs(places.inside - places.outside);
-  if (places.kind != PlaceKind::cap || difference == 0.0) return 0.0;
+double varying_factor_truncation(const VaryingProperty& varying, int order) {
+  const double difference = std::abs(varying.inside - varying.outside);
+  if (varying.kind != VariationKind::cap || difference == 0.0) return 0.0;
   const SphereTransform transform = cap_transform(order);
-  const Vector kept = transform.synthesize(place_factor(places, order));
-  return (kept - cap_values(places, transform.grid())).cwiseAbs().maxCoeff() / difference;
+  const Vector kept = transform.synthesize(varying_factor(varying, order));
+  return (kept - cap_values(varying, transform.grid())).cwiseAbs().maxCoeff() / difference;
 }
 
 MembraneMaterial initial_material(const Scene& scene) {
   const MembraneScene& membrane = scene.membrane;
   MembraneMaterial material;
-  const auto take = [&](const std::optional<PlaceScene>& places, double value, Vector& property) {
-    if (places) property = value * place_factor(*places, scene.numerics.order);
+  const auto take = [&](const std::optional<VaryingProperty>& varying, double value, Vector& property) {
+    if (varying) property = value * varying_factor(*varying, scene.numerics.order);
   };
   if (scene.electric) {
-    take(membrane.capacitance_by_place, membrane.capacitance, material.capacitance);
-    take(membrane.conductance_by_place, membrane.conductance, material.conductance);
+    take(membrane.varying_capacitance, membrane.capacitance, material.capacitance);
+    take(membrane.varying_conductance, membrane.conductance, material.conductance);
     if (membrane.pump) take(*membrane.pump, membrane.pump->current, material.pump_current);
   }
-  if (membrane.bending_by_place || membrane.curvature_by_place) {
+  if (membrane.varying_bending || membrane.varying_curvature) {
     // The force needs both properties.
-    const PlaceScene same{};
-    take(membrane.bending_by_place.value_or(same), membrane.bending_modulus.value_or(0.0), material.bending_modulus);
-    take(membrane.curvature_by_place.value_or(same), membrane.spontaneous_curvature, material.spontaneous_curvature);
+    const VaryingProperty same{};
+    take(membrane.varying_bending.value_or(same), membrane.bending_modulus.value_or(0.0), material.bending_modulus);
+    take(membrane.varying_curvature.value_or(same), membrane.spontaneous_curvature, material.spontaneous_curvature);
   }
   if (scene.shape.rotation) {
     const Matrix3 rotation = rotation_matrix(*scene.shape.rotation);

@@ -47,11 +47,11 @@ Extremes radius_extremes(const Scene& scene);
 
 /// Factor of a property over the parameter sphere, coefficients [(order + 1)²].
 /// @param order  to which a cap is truncated
-/// Accuracy: harmonics exact, a cap to its truncation, see place_truncation
-Vector place_factor(const PlaceScene& places, int order);
+/// Accuracy: harmonics exact, a cap to its truncation, see varying_factor_truncation
+Vector varying_factor(const VaryingProperty& varying, int order);
 
 /// Largest truncation error of a cap, over the difference of its two factors; 0 for harmonics.
-double place_truncation(const PlaceScene& places, int order);
+double varying_factor_truncation(const VaryingProperty& varying, int order);
 
 /// The spatially varying properties, rotated with the shape.
 MembraneMaterial initial_material(const Scene& scene);

@@ -93,7 +93,7 @@ double inclination(const Surface& s, const Frame& frame) {
 /// ∫(H − c)² dA.
 double elastic_energy_scaled(const Membrane& membrane, double c) {
   const Surface& s = membrane.surface;
-  if (bends_by_place(membrane)) {
+  if (has_varying_bending(membrane)) {
     return (s.mean_curvature - membrane.material.spontaneous_curvature).cwiseAbs2().dot(s.quadrature);
   }
   return (s.mean_curvature.array() - c).square().matrix().dot(s.quadrature);
@@ -227,12 +227,12 @@ Vector3 net_force(const Membrane& membrane, const VesicleSolution& solution, con
   return sum;
 }
 
-void add_by_place(const VesicleModel& model, const Membrane& membrane, const VesicleSolution& solution,
-                  const VesicleFields& fields, VesicleDiagnostics& d) {
-  if (!model.by_place && !model.pump) return;
+void add_sums_of_varying_membrane(const VesicleModel& model, const Membrane& membrane, const VesicleSolution& solution,
+                                  const VesicleFields& fields, VesicleDiagnostics& d) {
+  if (!model.has_varying_properties && !model.pump) return;
   if (model.bending) {
     d.elastic_energy =
-        bends_by_place(membrane) ? elastic_energy(membrane) : model.bending->modulus * d.elastic_energy_scaled;
+        has_varying_bending(membrane) ? elastic_energy(membrane) : model.bending->modulus * d.elastic_energy_scaled;
   }
   std::tie(d.net_force_x, d.net_force_y, d.net_force_z) = components(net_force(membrane, solution, fields));
 }
@@ -293,7 +293,7 @@ VesicleDiagnostics diagnose(const Model& model, const VesicleModel& vesicle_mode
     d.Vm_max = largest_magnitude(fine, potential);
   }
   add_poration(vesicle_model, fine, s, vesicle, solution, fields, d);
-  add_by_place(vesicle_model, membrane, solution, fields, d);
+  add_sums_of_varying_membrane(vesicle_model, membrane, solution, fields, d);
   if (model.wall) {
     d.gap_wall = nearest_to_wall(*model.wall, fine, vesicle.position).distance;
     d.force_wall = -model.wall->normal.dot(net_force(membrane, solution, fields));

@@ -27,8 +27,8 @@ void add_effects(const VesicleTask& task, double time, Limit limit, Forcing& for
 
 void add_bending(const VesicleTask& task, Forcing& forcing) {
   if (!task.vesicle.bending) return;
-  const Matrix bending = bends_by_place(task.membrane) ? elastic_force(task.membrane)
-                                                       : bending_force(*task.vesicle.bending, task.membrane);
+  const Matrix bending = has_varying_bending(task.membrane) ? elastic_force(task.membrane)
+                                                            : bending_force(*task.vesicle.bending, task.membrane);
   task.fields.force_bending = task.membrane.fine.analyze(bending);
   forcing.force += bending;
 }

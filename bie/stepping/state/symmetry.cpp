@@ -55,7 +55,8 @@ bool are_same(const SurfaceFields& image, const SurfaceFields& fields) {
 bool are_alike(const VesicleModel& a, const VesicleModel& b) {
   return a.viscosity_ratio == b.viscosity_ratio && a.inextensible == b.inextensible && a.bending == b.bending &&
          a.undulations == b.undulations && a.inside == b.inside && a.charging == b.charging &&
-         a.criterion == b.criterion && a.reaction == b.reaction && a.by_place == b.by_place && a.pump == b.pump &&
+         a.criterion == b.criterion && a.reaction == b.reaction &&
+         a.has_varying_properties == b.has_varying_properties && a.pump == b.pump &&
          std::ranges::equal(a.effects, b.effects,
                             [](const auto& one, const auto& other) { return one->is_same_as(*other); });
 }

@@ -5,12 +5,12 @@
 
 #include "bie/physics/effects/poration.hpp"
 #include "bie/stepping/space/discretisation.hpp"
-#include "tests/stepping/by_place.hpp"
 #include "tests/stepping/relaxing_sphere.hpp"
+#include "tests/stepping/varying_membrane.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
 
-BOOST_AUTO_TEST_SUITE(relaxation_by_place)
+BOOST_AUTO_TEST_SUITE(varying_membrane_relaxation)
 
 using namespace vehd;
 using namespace vehd::testing;
@@ -23,7 +23,7 @@ Model relaxing_model() {
   set_electric(model, {{0.0, 0.0, 0.7}, 0.5, 1.0, 0.3, 0.6, Waveform::alternating(1.0, 0.5, 0.3)}, {0.8, 0.5});
   model.electric->displacement_current = true;
   model.mobile = false;
-  model.vesicles[0].by_place = true;
+  model.vesicles[0].has_varying_properties = true;
   model.vesicles[0].pump = Waveform::alternating(1.0, 0.4, 0.3);
   return model;
 }
@@ -53,7 +53,7 @@ void check_sphere(const Model& model) {
     settings.time_order = order;
     const Discretisation discretisation(settings, {});
     const double dt = kEnd / n_steps;
-    const State state = start_by_place(model, discretisation, sphere(kOrder), dt, material);
+    const State state = varying_start(model, discretisation, sphere(kOrder), dt, material);
     return run(model, discretisation, state, dt, n_steps).vesicles[0];
   };
   const PorationReaction* reaction = model.vesicles[0].reaction.get();
@@ -92,13 +92,13 @@ BOOST_AUTO_TEST_CASE(steady_charges_do_not_change) {
   const Matrix shape = asymmetric_shape(12);
   const Discretisation discretisation(solved_to_rounding(12), {});
   const Evaluated found =
-      evaluated(model, discretisation, start_by_place(model, discretisation, shape, 1.0, electric_material(12), true));
+      evaluated(model, discretisation, varying_start(model, discretisation, shape, 1.0, electric_material(12), true));
   BOOST_TEST(found.fields.potential.norm() > 0.5);
   BOOST_TEST(found.solution.rate.transmembrane_potential.norm() < 1e-4 * found.fields.potential.norm());
   BOOST_TEST(found.solution.rate.free_charge.norm() < 1e-4 * found.fields.potential.norm());
 }
 
-BOOST_AUTO_TEST_CASE(a_uniform_membrane_relaxes_as_without_places) {
+BOOST_AUTO_TEST_CASE(a_uniform_membrane_relaxes_as_without_variation) {
   constexpr int kOrder = 8;
   Model model = relaxing_model();
   model.mobile = true;
@@ -111,10 +111,10 @@ BOOST_AUTO_TEST_CASE(a_uniform_membrane_relaxes_as_without_places) {
     const Discretisation discretisation(settings, find_symmetry(model, at_rest(position)));
     const State uniform = run(model, discretisation, start(model, discretisation, position, 0.05), 0.05, 3);
     const MembraneMaterial material = same_everywhere(model.vesicles[0], kOrder, 0.0);
-    const State by_place =
-        run(model, discretisation, start_by_place(model, discretisation, position, 0.05, material), 0.05, 3);
-    BOOST_TEST(largest_difference(by_place, uniform) < 1e-8, porates);
-    BOOST_TEST(max_difference(by_place.vesicles[0].free_charge, uniform.vesicles[0].free_charge) < 1e-8);
+    const State varying =
+        run(model, discretisation, varying_start(model, discretisation, position, 0.05, material), 0.05, 3);
+    BOOST_TEST(largest_difference(varying, uniform) < 1e-8, porates);
+    BOOST_TEST(max_difference(varying.vesicles[0].free_charge, uniform.vesicles[0].free_charge) < 1e-8);
   }
 }
 
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(amplitudes_of_the_averaged_field_alternate_as_the_charges_d
   MembraneMaterial material = electric_material(kOrder);
   material.pump_current.resize(0);
   const Discretisation discretisation(solved_to_rounding(kOrder), {});
-  const auto started = [&](const Model& of) { return start_by_place(of, discretisation, position, 1.0, material); };
+  const auto started = [&](const Model& of) { return varying_start(of, discretisation, position, 1.0, material); };
   const Matrix amplitude = evaluated(averaged, discretisation, started(averaged)).fields.potential_amplitude;
   // K_k E_k = yV at every point, so q_i = C V − ε_i yV/K_i and q_e = ε_e yV/K_e − C V; divided by C = 0.8.
   const SphereTransform& fine = discretisation.vesicle(0).fine_transform();

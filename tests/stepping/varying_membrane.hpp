@@ -20,18 +20,18 @@ inline MembraneMaterial electric_material(int order) {
   return material;
 }
 
-inline State start_by_place(const Model& model, const Discretisation& discretisation,
-                            const std::vector<Matrix>& positions, double dt,
-                            const std::vector<MembraneMaterial>& materials, bool steady = false) {
+inline State varying_start(const Model& model, const Discretisation& discretisation,
+                           const std::vector<Matrix>& positions, double dt,
+                           const std::vector<MembraneMaterial>& materials, bool steady = false) {
   std::vector<StartMembrane> membranes;
   for (std::size_t a = 0; a < positions.size(); ++a) membranes.push_back({positions[a], {steady, {}}, materials[a]});
   Instruments instruments;
   return initial_state(model, discretisation, membranes, dt, instruments);
 }
 
-inline State start_by_place(const Model& model, const Discretisation& discretisation, const Matrix& position, double dt,
-                            const MembraneMaterial& material, bool steady = false) {
-  return start_by_place(model, discretisation, std::vector{position}, dt, std::vector{material}, steady);
+inline State varying_start(const Model& model, const Discretisation& discretisation, const Matrix& position, double dt,
+                           const MembraneMaterial& material, bool steady = false) {
+  return varying_start(model, discretisation, std::vector{position}, dt, std::vector{material}, steady);
 }
 
 /// The material given by the parameters of a model, uniform over the membrane.

@@ -6,11 +6,11 @@
 #include "bie/physics/membrane_charging.hpp"
 #include "bie/stepping/evolution.hpp"
 #include "bie/stepping/space/discretisation.hpp"
-#include "tests/stepping/by_place.hpp"
+#include "tests/stepping/varying_membrane.hpp"
 #include "tests/support/several_runs.hpp"
 #include "tests/support/shapes.hpp"
 
-BOOST_AUTO_TEST_SUITE(charging_by_place)
+BOOST_AUTO_TEST_SUITE(varying_membrane_charging)
 
 using namespace vehd;
 using namespace vehd::testing;
@@ -24,7 +24,7 @@ Model pumped_model() {
   Model model;
   set_electric(model, {{0.0, 0.0, kField}, kInside, kOutside, 1.0}, {0.8, 0.5});
   model.mobile = false;
-  model.vesicles[0].by_place = true;
+  model.vesicles[0].has_varying_properties = true;
   model.vesicles[0].pump = Waveform::alternating(1.0, 0.4, 0.3);
   return model;
 }
@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(a_sphere_is_followed_at_every_order) {
     settings.time_order = order;
     const Discretisation discretisation(settings, {});
     const double dt = kEnd / n_steps;
-    const State state = start_by_place(model, discretisation, sphere(kOrder), dt, material);
+    const State state = varying_start(model, discretisation, sphere(kOrder), dt, material);
     return run(model, discretisation, state, dt, n_steps).vesicles[0].transmembrane_potential;
   };
   const Vector exact = after_runge_kutta(PumpedSphere(kOrder, material), *model.vesicles[0].pump,
@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(the_steady_potential_is_that_of_a_dense_solve) {
   constexpr int kOrder = 14;
   const Model model = pumped_model();
   const Discretisation discretisation(solved_to_rounding(kOrder), {});
-  const State state = start_by_place(model, discretisation, sphere(kOrder), 1.0, electric_material(kOrder), true);
+  const State state = varying_start(model, discretisation, sphere(kOrder), 1.0, electric_material(kOrder), true);
   const Vector exact = PumpedSphere(kOrder, electric_material(kOrder)).steady(1.0);
   BOOST_TEST(max_difference(state.vesicles[0].transmembrane_potential, exact) < 1e-9);
   // A solution of another degree shows the truncation error.
@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(no_net_current_crosses_a_membrane_at_rest) {
   const Model model = pumped_model();
   const Discretisation discretisation(solved_to_rounding(kOrder), {});
   const MembraneMaterial coefficients = electric_material(kOrder);
-  const State state = start_by_place(model, discretisation, asymmetric_shape(kOrder), 1.0, coefficients, true);
+  const State state = varying_start(model, discretisation, asymmetric_shape(kOrder), 1.0, coefficients, true);
   Instruments instruments;
   const Membrane membrane = membrane_at(discretisation.vesicle(0), asymmetric_shape(kOrder), {}, 1.0, instruments);
   const MembraneMaterial material = material_at(discretisation.vesicle(0), coefficients);
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(no_net_current_crosses_a_membrane_at_rest) {
   BOOST_TEST(current.cwiseAbs().dot(area) > 0.1);
 }
 
-BOOST_AUTO_TEST_CASE(a_uniform_membrane_moves_as_it_does_without_places) {
+BOOST_AUTO_TEST_CASE(a_uniform_membrane_moves_as_it_does_without_variation) {
   constexpr int kOrder = 8;
   const Model model = field_model();
   const Matrix position = prolate(kOrder);
@@ -156,10 +156,10 @@ BOOST_AUTO_TEST_CASE(a_uniform_membrane_moves_as_it_does_without_places) {
     const Discretisation discretisation(settings, find_symmetry(model, at_rest(position)));
     const State uniform = run(model, discretisation, start(model, discretisation, position, 0.05), 0.05, 4);
     const MembraneMaterial material = same_everywhere(model.vesicles[0], kOrder, 0.0);
-    const State by_place =
-        run(model, discretisation, start_by_place(model, discretisation, position, 0.05, material), 0.05, 4);
-    BOOST_TEST(largest_difference(by_place, uniform) < 1e-8, time_order);
-    BOOST_TEST(max_difference(by_place.vesicles[0].material.conductance, material.conductance) < 1e-12);
+    const State varying =
+        run(model, discretisation, varying_start(model, discretisation, position, 0.05, material), 0.05, 4);
+    BOOST_TEST(largest_difference(varying, uniform) < 1e-8, time_order);
+    BOOST_TEST(max_difference(varying.vesicles[0].material.conductance, material.conductance) < 1e-12);
   }
 }
 
@@ -171,15 +171,15 @@ BOOST_AUTO_TEST_CASE(several_vesicles_have_each_their_own) {
   const NumericalSettings settings = solved_to_rounding(kOrder);
   const Discretisation discretisation = testing::discretisation_of(positions, settings);
   const auto started = [&](const std::vector<MembraneMaterial>& materials) {
-    return start_by_place(model, discretisation, positions, 0.1, materials);
+    return varying_start(model, discretisation, positions, 0.1, materials);
   };
   const auto potentials = [&](const std::vector<MembraneMaterial>& materials) {
     return run(model, discretisation, started(materials), 0.1, 3);
   };
   const MembraneMaterial same = same_everywhere(model.vesicles[0], kOrder, 0.0);
-  const State uniform = potentials({{}, {}}), by_place = potentials({same, {}});
+  const State uniform = potentials({{}, {}}), varying = potentials({same, {}});
   for (std::size_t a = 0; a < 2; ++a) {
-    BOOST_TEST(max_difference(by_place.vesicles[a].transmembrane_potential,
+    BOOST_TEST(max_difference(varying.vesicles[a].transmembrane_potential,
                               uniform.vesicles[a].transmembrane_potential) < 1e-10);
   }
   // The pump changes the V_m of its own vesicle and, through its field, weakly that of the neighbour.
@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(spatially_varying_properties_move_with_the_membrane) {
   MembraneMaterial material = same_everywhere(model.vesicles[0], kOrder, 0.0);
   material.bending_modulus += 0.02 * harmonic(kOrder, 2, 1);
   const Discretisation discretisation(solved_to_rounding(kOrder), {});
-  const State first = start_by_place(model, discretisation, position, 0.05, material);
+  const State first = varying_start(model, discretisation, position, 0.05, material);
   const State last = run(model, discretisation, first, 0.05, 10);
   const auto range = [&](const State& state) {
     const Vector values =

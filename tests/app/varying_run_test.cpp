@@ -11,14 +11,14 @@ const std::string pumping_vesicle =
     "[shape]\nkind = \"ellipsoid\"\naxes = [1.0, 1.0, 1.4]\n[membrane]\nbending_modulus = 0.1\nconductance = 1\n"
     "spontaneous_curvature = -0.4\n"
     "[electric]\nfield = [0, 0, 0]\nconductivity_in = 1\nconductivity_out = 2\npermittivity = 1\n"
-    "[membrane.curvature_by_place]\nkind = \"cap\"\nangle_deg = 80\nwidth_deg = 60\ninside = 2\n"
+    "[membrane.varying_curvature]\nkind = \"cap\"\nangle_deg = 80\nwidth_deg = 60\ninside = 2\n"
     "[membrane.pump]\nkind = \"harmonics\"\nbase = 0\nmodes = [{n = 1, m = 0, a = 2}, {n = 2, m = 0, a = 1}]\n"
     "current = 1.5\n[membrane.pump.waveform]\nkind = \"ac\"\nfrequency = 0.4\n";
 const std::string pumping_steps = "[numerics]\norder = 8\ndt = 0.1\nend_time = 1\n[output]\nevery = 0.2\n";
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(place_run, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
+BOOST_AUTO_TEST_SUITE(varying_run, *boost::unit_test::label("slow") * boost::unit_test::label("once"))
 
 BOOST_AUTO_TEST_CASE(a_pump_goes_on_bit_for_bit_without_a_force_and_has_pictures) {
   const RunPair pair(pumping_vesicle + pumping_steps);

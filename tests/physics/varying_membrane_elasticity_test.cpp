@@ -5,7 +5,7 @@
 #include "tests/support/membrane.hpp"
 #include "tests/support/shapes.hpp"
 
-BOOST_AUTO_TEST_SUITE(elasticity_by_place)
+BOOST_AUTO_TEST_SUITE(varying_membrane_elasticity)
 
 using namespace vehd;
 using namespace vehd::testing;
