@@ -1,25 +1,15 @@
 #include "fem_check/membrane_trace.hpp"
 
+#include "meshes/gauss_rule.hpp"
+
 namespace vehd::fem_check {
 
 namespace {
 
-/// Lagrange polynomials of the nodes at a point.
-Vector lagrange(const std::vector<double>& nodes, double x) {
-  Vector result = Vector::Ones(static_cast<Eigen::Index>(nodes.size()));
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (std::size_t j = 0; j < nodes.size(); ++j) {
-      if (i != j) result[i] *= (x - nodes[j]) / (nodes[i] - nodes[j]);
-    }
-  }
-  return result;
-}
-
-/// Their tensor products at a point of the unit square, first coordinate fastest.
+/// Tensor products of Lagrange polynomials at a point of the unit square, first coordinate fastest.
 Vector lagrange(const std::vector<double>& nodes, const Eigen::Vector2d& point) {
-  const Vector first = lagrange(nodes, point[0]);
-  const Vector second = lagrange(nodes, point[1]);
-  const Eigen::MatrixXd product = first * second.transpose();
+  const Eigen::MatrixXd along_edges = meshes::NodalPolynomials(nodes, {point[0], point[1]}).value;
+  const Eigen::MatrixXd product = along_edges.row(0).transpose() * along_edges.row(1);
   return Eigen::Map<const Vector>(product.data(), product.size());
 }
 

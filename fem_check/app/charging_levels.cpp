@@ -9,30 +9,6 @@
 #include "fem_check/app/charging_run.hpp"
 
 namespace vehd::fem_check {
-namespace {
-
-/// V_m at the points of the comparison for any number of steps, with elements of low degree.
-class StepRefinement {
- public:
-  StepRefinement(const ChargingRun& run, Meshes& meshes, const Report& report, double tolerance)
-      : run_(run), meshes_(meshes), report_(report), tolerance_(tolerance) {}
-
-  [[nodiscard]] Eigen::MatrixXd operator()(int degree, int steps, const ShapePath* path) const {
-    const auto solve = [&](const Discretisation& space) {
-      return run_.solve(space, {.steps = steps, .settings = {tolerance_}, .path = path});
-    };
-    const std::string name = fmt::format("{} in {} steps", charging_problem, steps);
-    return solve_level(name, meshes_.discretise(degree), meshes_.outer_radius(), report_, solve).surface.at("Vm");
-  }
-
- private:
-  const ChargingRun& run_;
-  Meshes& meshes_;
-  const Report& report_;
-  double tolerance_;
-};
-
-}  // namespace
 
 ChargingLevels solve_charging_levels(const CheckInput& input, Meshes& meshes, const Refinement& refinement,
                                      const Report& report) {
@@ -50,7 +26,14 @@ ChargingLevels solve_charging_levels(const CheckInput& input, Meshes& meshes, co
     return run.solve(space, {fewest_steps, settings, path});
   });
 
-  const StepRefinement refined(run, meshes, report, refinement.potential_tolerance);
+  // V_m at the points of the comparison.
+  const auto refined = [&](int degree, int steps, const ShapePath* along) {
+    const auto solve = [&](const Discretisation& space) {
+      return run.solve(space, {.steps = steps, .settings = {refinement.potential_tolerance}, .path = along});
+    };
+    const std::string name = fmt::format("{} in {} steps", charging_problem, steps);
+    return solve_level(name, meshes.discretise(degree), meshes.outer_radius(), report, solve).surface.at("Vm");
+  };
   const std::vector<Level>& levels = result.sequence.levels;
   const Eigen::MatrixXd lowest = levels[0].surface.at("Vm"), next = levels[1].surface.at("Vm");
   const int degree = levels[0].degree;

@@ -4,18 +4,18 @@
 #include <chrono>
 #include <cmath>
 
+#include "fem_check/app/compared_fields.hpp"
 #include "fem_check/app/field_files.hpp"
 #include "fem_check/app/hdf5_input.hpp"
-#include "fem_check/app/questions.hpp"
 #include "fem_check/app/shape_levels.hpp"
 #include "fem_check/app/surface_series.hpp"
 
 namespace vehd::fem_check {
 namespace {
 
-void add(CheckResult& result, const std::vector<FieldQuestion>& questions, const LevelSequence& sequence,
+void add(CheckResult& result, const std::vector<ComparedField>& fields, const LevelSequence& sequence,
          const Requirement& required) {
-  for (const FieldQuestion& question : questions) result.fields.push_back(compare(question, sequence, required));
+  for (const ComparedField& compared : fields) result.fields.push_back(compare(compared, sequence, required));
 }
 
 /// Called before the computation, so that a failure is reported at once.
@@ -29,16 +29,14 @@ double root_mean_square(const Eigen::MatrixXd& values, const Vector& weight) {
   return std::sqrt(values.colwise().squaredNorm().dot(weight) / weight.sum());
 }
 
-SurfaceDivergence divergence_of(const CheckInput& input, const LevelSequence& sequence,
-                                const ComparisonPlaces& places) {
-  const Vector& weight = places.surface.weight;
+SurfaceDivergence divergence_of(const CheckInput& input, const LevelSequence& sequence, const ComparisonPoints& at) {
+  const Vector& weight = at.surface.weight;
   const Level& last = sequence.levels.back();
   const Eigen::MatrixXd& divergence = last.surface.at("divergence");
   const Eigen::MatrixXd values = (divergence.array() - input.bie.dilation).matrix();
   const Eigen::MatrixXd change = divergence - sequence.levels[sequence.levels.size() - 2].surface.at("divergence");
   const double rate = std::max(
-      input.physics.flow_gradient.norm() + root_mean_square(last.surface.at("velocity"), weight) / places.radius,
-      1e-300);
+      input.physics.flow_gradient.norm() + root_mean_square(last.surface.at("velocity"), weight) / at.radius, 1e-300);
   const auto norms = [&](const Eigen::MatrixXd& field) {
     return Norms{root_mean_square(field, weight) / rate, field.cwiseAbs().maxCoeff() / rate};
   };
@@ -82,7 +80,7 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, c
   const meshes::FrozenShape shape(input.position);
   SolvedState solved;
   // Fields are evaluated at the same points of γ on every level: those of the finest geometry.
-  solved.places = {geometry.quadrature_points(refinement.points_per_edge), shape.radius(), shape.centroid()};
+  solved.points = {geometry.quadrature_points(refinement.points_per_edge), shape.radius(), shape.centroid()};
   solved.outer_radius = meshes.outer_radius();
   const bool single = inputs.size() == 1;
   if (input.electric()) solved.potential = solve_potential_levels(inputs, meshes, refinement, report);
@@ -101,31 +99,24 @@ SolvedState solve_state(const std::vector<CheckInput>& inputs, Meshes& meshes, c
 namespace {
 
 /// The part of the solutions on the membrane of one vesicle.
-class OneVesicle {
- public:
-  OneVesicle(const SolvedState& solved, const CheckInput& input, int number)
-      : points_(solved.places.surface.of_vesicle(number)), part_(solved) {
-    const meshes::FrozenShape shape(input.position);
-    part_.places = {solved.places.surface.picked(points_), shape.radius(), shape.centroid()};
-    if (part_.potential) keep(part_.potential->sequence);
-    if (part_.flow) keep(part_.flow->sequence);
-    if (part_.shape_flow) keep(*part_.shape_flow);
-  }
-  [[nodiscard]] const SolvedState& part() const { return part_; }
-
- private:
-  void keep(LevelSequence& sequence) const {
-    for (Level& level : sequence.levels) keep(level);
-    keep(sequence.truncated);
-    keep(sequence.loose);
-  }
-  void keep(Level& level) const {
-    for (auto& [name, values] : level.surface) values = Eigen::MatrixXd(values(Eigen::all, points_));
-  }
-
-  std::vector<Eigen::Index> points_;
-  SolvedState part_;
-};
+SolvedState part_of(const SolvedState& solved, const CheckInput& input, int number) {
+  const std::vector<Eigen::Index> points = solved.points.surface.of_vesicle(number);
+  const meshes::FrozenShape shape(input.position);
+  SolvedState part = solved;
+  part.points = {solved.points.surface.picked(points), shape.radius(), shape.centroid()};
+  const auto pick = [&](Level& level) {
+    for (auto& [name, values] : level.surface) values = Eigen::MatrixXd(values(Eigen::all, points));
+  };
+  const auto pick_all = [&](LevelSequence& sequence) {
+    std::ranges::for_each(sequence.levels, pick);
+    pick(sequence.truncated);
+    pick(sequence.loose);
+  };
+  if (part.potential) pick_all(part.potential->sequence);
+  if (part.flow) pick_all(part.flow->sequence);
+  if (part.shape_flow) pick_all(*part.shape_flow);
+  return part;
+}
 
 /// Result without rows.
 CheckResult result_of(const CheckInput& input, const SolvedState& solved, double required) {
@@ -145,36 +136,36 @@ CheckResult judge_vesicle(const CheckInput& input, const SolvedState& solved, do
   result.name = input.name;
   result.order = input.bie.order;
   result.high_order = input.bie_high.order;
-  const ComparisonPlaces& places = solved.places;
+  const ComparisonPoints& at = solved.points;
   if (solved.potential) {
     const LevelSequence& sequence = solved.potential->sequence;
     result.levels = sequence.levels;
-    add(result, electric_questions(input, places, sequence), sequence, required);
-    add(result, current_questions(input, places), sequence, required);
-    add(result, stored_electric_questions(input, places), sequence, required);
+    add(result, electric_fields(input, at, sequence), sequence, required);
+    add(result, charging_currents(input, at), sequence, required);
+    add(result, stored_electric_fields(input, at), sequence, required);
   }
   if (solved.charging && input.in_time) {
     const ChargingLevels& charging = *solved.charging;
     result.levels.insert(result.levels.end(), charging.sequence.levels.begin(), charging.sequence.levels.end());
-    add(result, {in_time_question(input, places, charging)}, charging.sequence, required);
+    add(result, {potential_in_time(input, at, charging)}, charging.sequence, required);
     result.in_time = {input.in_time->begin, input.in_time->begin_text, charging.steps, charging.order_in_time,
                       input.in_time->moves()};
   }
   if (solved.flow) {
     const LevelSequence& sequence = solved.flow->sequence;
     result.levels.insert(result.levels.end(), sequence.levels.begin(), sequence.levels.end());
-    add(result, flow_questions(input, places, sequence), sequence, required);
+    add(result, flow_fields(input, at, sequence), sequence, required);
     const LevelSequence none;
     const LevelSequence& of_shape = solved.shape_flow ? *solved.shape_flow : none;
     const Level* last = of_shape.levels.empty() ? nullptr : &of_shape.levels.back();
-    add(result, stored_shape_questions(input, places, last), of_shape, required);
-    add(result, stored_flow_questions(input, places), sequence, required);
+    add(result, stored_fields_of_shape(input, at, last), of_shape, required);
+    add(result, stored_flow_fields(input, at), sequence, required);
     if (last != nullptr) {
-      add(result, shape_questions(input, places, *last), of_shape, required);
+      add(result, fields_of_shape(input, at, *last), of_shape, required);
       result.levels.insert(result.levels.end(), solved.shape_flow->levels.begin(), solved.shape_flow->levels.end());
     }
-    result.divergence = divergence_of(input, sequence, places);
-    result.stored_velocity = stored_velocity_difference(input, places.surface);
+    result.divergence = divergence_of(input, sequence, at);
+    result.stored_velocity = stored_velocity_difference(input, at.surface);
   }
   return result;
 }
@@ -185,8 +176,8 @@ CheckResult judge(const std::vector<CheckInput>& inputs, const SolvedState& solv
   if (inputs.size() == 1) return judge_vesicle(inputs.front(), solved, required);
   CheckResult result = result_of(inputs.front(), solved, required);
   for (std::size_t k = 0; k < inputs.size(); ++k) {
-    const OneVesicle vesicle(solved, inputs[k], static_cast<int>(k));
-    result.vesicles.push_back(judge_vesicle(inputs[k], vesicle.part(), required));
+    const SolvedState part = part_of(solved, inputs[k], static_cast<int>(k));
+    result.vesicles.push_back(judge_vesicle(inputs[k], part, required));
   }
   return result;
 }

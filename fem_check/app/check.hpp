@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "fem_check/app/charging_levels.hpp"
+#include "fem_check/app/compared_field.hpp"
 #include "fem_check/app/flow_levels.hpp"
 #include "fem_check/app/potential_levels.hpp"
 #include "fem_check/app/progress.hpp"
-#include "fem_check/app/question_maker.hpp"
 #include "fem_check/app/refinement.hpp"
 #include "fem_check/app/result.hpp"
 
@@ -26,7 +26,7 @@ struct CheckTask {
 
 /// Finite-element solutions of one state, with which boundary-integral fields are compared.
 struct SolvedState {
-  ComparisonPlaces places;  ///< radius and centre of the first vesicle
+  ComparisonPoints points;  ///< radius and centre of the first vesicle
   std::optional<PotentialLevels> potential;
   std::optional<FlowLevels> flow;
   std::optional<LevelSequence> shape_flow;  ///< with several vesicles, f_b only

@@ -69,28 +69,28 @@ double degree_tail(double change, const Degrees& degrees) {
   return std::max(1.0, degrees.judged < degrees.other ? of_lower : of_lower - 1.0);
 }
 
-/// Field of a level in the form required by the question; empty if the level does not have it.
-Eigen::MatrixXd values_of(const FieldQuestion& question, const Level& level) {
-  const FieldValues& fields = question.is_sample ? level.samples : level.surface;
-  const auto found = fields.find(question.values);
+/// Field of a level in the form required by the compared; empty if the level does not have it.
+Eigen::MatrixXd values_of(const ComparedField& compared, const Level& level) {
+  const FieldValues& fields = compared.is_sample ? level.samples : level.surface;
+  const auto found = fields.find(compared.values);
   if (found == fields.end()) return {};
   Eigen::MatrixXd values = found->second;
-  if (!question.columns.empty()) values = Eigen::MatrixXd(values(Eigen::all, question.columns));
-  return question.from_level ? question.from_level(values) : values;
+  if (!compared.columns.empty()) values = Eigen::MatrixXd(values(Eigen::all, compared.columns));
+  return compared.from_level ? compared.from_level(values) : values;
 }
 
 /// Norms relative to the larger of the judged field and its reference, so that neither hides the other, but at least to
 /// the size below which a field counts as zero.
 class Measure {
  public:
-  Measure(const FieldQuestion& question, const Eigen::MatrixXd& by, double required) : weight_(question.weight) {
-    const double share = question.is_remainder ? 1.0 : required;
-    const double least = std::max({share * question.natural_size, question.whole_size, least_number});
+  Measure(const ComparedField& compared, const Eigen::MatrixXd& by, double required) : weight_(compared.weight) {
+    const double share = compared.is_remainder ? 1.0 : required;
+    const double least = std::max({share * compared.natural_size, compared.whole_size, least_number});
     l2_ = least * std::sqrt(weight_.sum());
     max_ = least;
-    if (question.is_remainder) return;
-    l2_ = std::max({norm(question.judged), norm(by), l2_});
-    max_ = std::max({largest(question.judged), largest(by), max_});
+    if (compared.is_remainder) return;
+    l2_ = std::max({norm(compared.judged), norm(by), l2_});
+    max_ = std::max({largest(compared.judged), largest(by), max_});
   }
   [[nodiscard]] Norms operator()(const Eigen::MatrixXd& difference) const {
     return {norm(difference) / l2_, largest(difference) / max_};
@@ -117,23 +117,23 @@ Verdict verdict_of(const FieldComparison& field, double required) {
 }
 
 /// Compares with the levels that have the field.
-void compare_with_levels(const FieldQuestion& question, const LevelSequence& sequence, const Measure& measure,
+void compare_with_levels(const ComparedField& compared, const LevelSequence& sequence, const Measure& measure,
                          const std::vector<Eigen::MatrixXd>& values, const std::vector<double>& n_unknowns,
                          FieldComparison& result) {
-  for (const Eigen::MatrixXd& of_level : values) result.of_levels.push_back(measure(question.judged - of_level));
+  for (const Eigen::MatrixXd& of_level : values) result.of_levels.push_back(measure(compared.judged - of_level));
   const std::size_t last = values.size() - 1;
   result.difference = result.of_levels.back();
   // A single level gives no estimate of its error.
   const double unknown = std::numeric_limits<double>::infinity();
   result.levels_change = last > 0 ? measure(values[last] - values[last - 1]) : Norms{unknown, unknown};
   const Level& repeated = sequence.levels[static_cast<std::size_t>(sequence.repeated)];
-  const Eigen::MatrixXd truncated = values_of(question, sequence.truncated);
-  if (truncated.size() > 0) result.truncation = measure(truncated - values_of(question, repeated));
-  const Eigen::MatrixXd loose = values_of(question, sequence.loose);
+  const Eigen::MatrixXd truncated = values_of(compared, sequence.truncated);
+  if (truncated.size() > 0) result.truncation = measure(truncated - values_of(compared, repeated));
+  const Eigen::MatrixXd loose = values_of(compared, sequence.loose);
   if (loose.size() > 0) {
-    result.solver = solver_share * measure(loose - values_of(question, repeated)).l2;
+    result.solver = solver_share * measure(loose - values_of(compared, repeated)).l2;
   }
-  result.solver += measure.share_of(question.natural_size * question.solver_magnification * sequence.tolerance);
+  result.solver += measure.share_of(compared.natural_size * compared.solver_magnification * sequence.tolerance);
   if (values.size() < 3) return;
   const auto found = convergence({measure(values[last - 1] - values[last - 2]).l2, result.levels_change.l2},
                                  {n_unknowns[last - 2], n_unknowns[last - 1], n_unknowns[last]});
@@ -149,9 +149,9 @@ const char* name_of(Verdict verdict) {
   return verdict == Verdict::disagree ? "disagree" : "undecided";
 }
 
-const char* name_of(Judge judge) {
-  if (judge == Judge::elements) return "elements";
-  return judge == Judge::constraint ? "constraint" : "boundary integrals";
+const char* name_of(Reference reference) {
+  if (reference == Reference::elements) return "elements";
+  return reference == Reference::constraint ? "constraint" : "boundary integrals";
 }
 
 std::optional<Convergence> convergence_of(const LevelSequence& sequence, const std::string& field) {
@@ -166,36 +166,37 @@ std::optional<Convergence> convergence_of(const LevelSequence& sequence, const s
   return convergence({change(0), change(1)}, {unknowns(0), unknowns(1), unknowns(2)});
 }
 
-FieldComparison compare(const FieldQuestion& question, const LevelSequence& sequence, const Requirement& required) {
+FieldComparison compare(const ComparedField& compared, const LevelSequence& sequence, const Requirement& required) {
   FieldComparison result;
-  result.name = question.name;
-  result.label = question.label;
-  result.group = question.group;
-  result.judge = question.judge;
-  result.has_work_row = question.has_work_row;
+  result.name = compared.name;
+  result.label = compared.label;
+  result.group = compared.group;
+  result.reference = compared.reference;
+  result.has_work_row = compared.has_work_row;
   std::vector<Eigen::MatrixXd> values;
   std::vector<double> n_unknowns;
   for (const Level& level : sequence.levels) {
-    Eigen::MatrixXd of_level = question.judge == Judge::elements ? values_of(question, level) : Eigen::MatrixXd();
+    Eigen::MatrixXd of_level =
+        compared.reference == Reference::elements ? values_of(compared, level) : Eigen::MatrixXd();
     if (of_level.size() == 0) continue;
     values.push_back(std::move(of_level));
     n_unknowns.push_back(static_cast<double>(level.n_unknowns));
   }
-  if (values.empty() && question.judge == Judge::elements) {
-    throw std::logic_error("no level has the values \"" + question.values + "\" of " + question.name);
+  if (values.empty() && compared.reference == Reference::elements) {
+    throw std::logic_error("no level has the values \"" + compared.values + "\" of " + compared.name);
   }
-  const Measure measure(question, values.empty() ? question.bie : values.back(), required.error);
+  const Measure measure(compared, values.empty() ? compared.bie : values.back(), required.error);
   if (values.empty()) {
-    result.difference = measure(question.judged - question.bie);
+    result.difference = measure(compared.judged - compared.bie);
   } else {
-    compare_with_levels(question, sequence, measure, values, n_unknowns, result);
+    compare_with_levels(compared, sequence, measure, values, n_unknowns, result);
   }
-  result.bie_change = measure(question.bie - question.bie_high);
-  result.bie_tail = degree_tail(result.bie_change.l2, question.degrees);
-  if (question.further_error.size() > 0) result.bie_further = measure(question.further_error).l2;
-  if (question.time_error.size() > 0) result.time = measure(question.time_error).l2;
+  result.bie_change = measure(compared.bie - compared.bie_high);
+  result.bie_tail = degree_tail(result.bie_change.l2, compared.degrees);
+  if (compared.further_error.size() > 0) result.bie_further = measure(compared.further_error).l2;
+  if (compared.time_error.size() > 0) result.time = measure(compared.time_error).l2;
   result.floor =
-      measure.share_of(question.natural_size * std::max(rounding, solver_factor * required.solver_tolerance));
+      measure.share_of(compared.natural_size * std::max(rounding, solver_factor * required.solver_tolerance));
   result.verdict = verdict_of(result, required.error);
   return result;
 }

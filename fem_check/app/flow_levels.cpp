@@ -7,6 +7,7 @@
 #include "fem_check/app/vesicle_fields.hpp"
 
 namespace vehd::fem_check {
+
 FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSetups& setups,
                              const Refinement& refinement, const Report& report) {
   const CheckInput& input = inputs.front();
@@ -38,38 +39,6 @@ FlowLevels solve_flow_levels(const std::vector<CheckInput>& inputs, Meshes& mesh
   return result;
 }
 
-namespace {
-
-/// Velocity on γ due to forces without a background flow, at any degree.
-class ForceFlows {
- public:
-  ForceFlows(Meshes& meshes, FlowSetups& setups, const Refinement& refinement, const Report& report)
-      : meshes_(meshes), setups_(setups), refinement_(refinement), report_(report), problem_(setups.problem()) {
-    // Larger tolerance, since this flow is small compared with the one to which it is added.
-    problem_.tolerance = std::max(refinement.flow_tolerance, tolerance_of_changes);
-  }
-
-  [[nodiscard]] Eigen::MatrixXd velocity(int degree, VectorOnSurface force) {
-    problem_.force = std::move(force);
-    const auto solve = [&](const Discretisation& space) {
-      const FlowSolution solution = solve_flow(setups_.at(space), problem_);
-      const SurfacePoints points = space.quadrature_points(refinement_.points_per_edge);
-      return Solved{solution.cost(), {{"velocity", solution.on_surface(points).velocity}}, {}};
-    };
-    return solve_level("flow by the change of f_E", meshes_.discretise(degree), meshes_.outer_radius(), report_, solve)
-        .surface.at("velocity");
-  }
-
- private:
-  Meshes& meshes_;
-  FlowSetups& setups_;
-  const Refinement& refinement_;
-  const Report& report_;
-  FlowProblem problem_;
-};
-
-}  // namespace
-
 void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSetups& setups,
                    const Refinement& refinement, const PotentialLevels& potential, LevelSequence& sequence,
                    const Report& report) {
@@ -79,7 +48,20 @@ void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSe
   const SurfaceSeries given = series_of(inputs, [](const CheckInput& input) { return input.stored.force_electric; });
   const PotentialSolution &electric = potential.solutions.back(),
                           &electric_before = potential.solutions[potential.solutions.size() - 2];
-  ForceFlows flows(meshes, setups, refinement, report);
+  FlowProblem problem = setups.problem();
+  // Larger tolerance, since this flow is small compared with the one to which it is added.
+  problem.tolerance = std::max(refinement.flow_tolerance, tolerance_of_changes);
+  // On γ, without a background flow.
+  const auto velocity_by = [&](int degree, const VectorOnSurface& force) {
+    problem.force = force;
+    const auto solve = [&](const Discretisation& space) {
+      const FlowSolution solution = solve_flow(setups.at(space), problem);
+      const SurfacePoints points = space.quadrature_points(refinement.points_per_edge);
+      return Solved{solution.cost(), {{"velocity", solution.on_surface(points).velocity}}, {}};
+    };
+    return solve_level("flow by the change of f_E", meshes.discretise(degree), meshes.outer_radius(), report, solve)
+        .surface.at("velocity");
+  };
   // f = … − f_E: replaces the snapshot's f_E by that of the elements.
   const VectorOnSurface change = [&](const SurfacePoints& at) {
     return Vectors(given(at) - electric.on_surface(at).force);
@@ -90,15 +72,14 @@ void add_own_force(const std::vector<CheckInput>& inputs, Meshes& meshes, FlowSe
   };
   const int first = sequence.levels.front().degree;
   const double enough = negligible_share * (last.surface.at("velocity") - before.surface.at("velocity")).norm();
-  Eigen::MatrixXd coarse = flows.velocity(first, change), fine = coarse;
+  Eigen::MatrixXd coarse = velocity_by(first, change), fine = coarse;
   for (int degree = first + 1; degree <= last.degree; ++degree) {
-    coarse = std::exchange(fine, flows.velocity(degree, change));
+    coarse = std::exchange(fine, velocity_by(degree, change));
     if ((fine - coarse).norm() <= enough) break;
   }
   // The difference of the two levels includes all errors: of the flow, of the change and of f_E.
   last.surface["velocity_own_force"] = last.surface.at("velocity") + fine;
-  before.surface["velocity_own_force"] =
-      before.surface.at("velocity") + coarse + flows.velocity(first, electric_change);
+  before.surface["velocity_own_force"] = before.surface.at("velocity") + coarse + velocity_by(first, electric_change);
   Level& repeated = sequence.levels[static_cast<std::size_t>(sequence.repeated)];
   for (Level* level : {&sequence.truncated, &sequence.loose, &repeated}) {
     level->surface["velocity_own_force"] = level->surface.at("velocity") + fine;

@@ -24,7 +24,7 @@ nlohmann::json json_of(const FieldComparison& field) {
           {"bie_tail", field.bie_tail},
           {"bie_further", field.bie_further},
           {"floor", field.floor},
-          {"judged_by", name_of(field.judge)},
+          {"judged_by", name_of(field.reference)},
           {"verdict", name_of(field.verdict)},
           {"counts", field.counts()}};
 }
@@ -93,12 +93,12 @@ std::string verdict_text(const FieldComparison& field, double required) {
     text += fmt::format(": {} error", elements && run ? "either" : elements ? "FEM" : "run");
   }
   if (!field.counts()) text = "(" + text + ")";
-  return field.judge == Judge::boundary_integrals ? text + " *" : text;
+  return field.reference == Reference::boundary_integrals ? text + " *" : text;
 }
 
 std::string text_of(const Row& row, std::size_t width, double required) {
   const FieldComparison& field = *row.field;
-  const std::string fem = field.judge == Judge::elements ? fmt::format("{:.1e}", field.fem_error()) : "-";
+  const std::string fem = field.reference == Reference::elements ? fmt::format("{:.1e}", field.fem_error()) : "-";
   return fmt::format("{:<{}} {:>9.1e} {:>9.1e}   {:>9} {:>6}   {:>9.1e}   {}\n", row.label, width, field.difference.l2,
                      field.difference.max, fem, field.order ? fmt::format("{:.1f}", *field.order) : "-",
                      field.bie_error(), verdict_text(field, required));
@@ -116,7 +116,7 @@ std::string legend_of(const CheckResult& result, const std::vector<Row>& rows) {
       "  agree: the difference is within both errors, each at most {0:.3g} of the field; disagree: it is larger;\n"
       "  undecided: it is within them, but the error that is named is larger than {0:.3g}\n",
       result.required);
-  if (any([](const FieldComparison& field) { return field.judge == Judge::boundary_integrals; })) {
+  if (any([](const FieldComparison& field) { return field.reference == Reference::boundary_integrals; })) {
     text += "  *: compared with a new solution by boundary integrals, not with finite elements\n";
   }
   if (any([](const FieldComparison& field) { return !field.counts(); })) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "meshes/gauss_rule.hpp"
+
 namespace vehd::fem_check {
 
 ShapePath::ShapePath(const InTime& in_time)
@@ -15,18 +17,10 @@ ShapePath::Weights ShapePath::weights(double time) const {
   const auto after = static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), time) - times_.begin());
   Weights result;
   result.first = std::min(after - std::min(after, count / 2), times_.size() - count);
-  const auto n = static_cast<Eigen::Index>(count);
-  const auto at = [&](Eigen::Index i) { return times_[result.first + static_cast<std::size_t>(i)]; };
-  result.value = Vector::Ones(n);
-  result.derivative = Vector::Zero(n);
-  // Lagrange polynomials, by multiplying their factors.
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      if (j == i) continue;
-      result.derivative[i] = (result.derivative[i] * (time - at(j)) + result.value[i]) / (at(i) - at(j));
-      result.value[i] *= (time - at(j)) / (at(i) - at(j));
-    }
-  }
+  const auto first = times_.begin() + static_cast<std::ptrdiff_t>(result.first);
+  const meshes::NodalPolynomials at_time({first, first + static_cast<std::ptrdiff_t>(count)}, {time});
+  result.value = at_time.value.row(0);
+  result.derivative = at_time.slope.row(0);
   return result;
 }
 

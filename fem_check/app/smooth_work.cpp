@@ -38,30 +38,30 @@ class SmoothPart {
   Eigen::LLT<Eigen::MatrixXd> mass_;
 };
 
-FieldQuestion projected(FieldQuestion question, const SmoothPart& smooth) {
-  for (Eigen::MatrixXd* force : {&question.judged, &question.bie, &question.bie_high}) *force = smooth(*force);
-  return question;
+ComparedField projected(ComparedField compared, const SmoothPart& smooth) {
+  for (Eigen::MatrixXd* force : {&compared.judged, &compared.bie, &compared.bie_high}) *force = smooth(*force);
+  return compared;
 }
 
 }  // namespace
 
-FieldQuestion work_on_smooth(FieldQuestion question, const SurfacePoints& points) {
+ComparedField work_on_smooth(ComparedField compared, const SurfacePoints& points) {
   const auto smooth = std::make_shared<const SmoothPart>(points);
-  question.from_level = [smooth](const Eigen::MatrixXd& force) { return (*smooth)(force); };
-  return projected(std::move(question), *smooth);
+  compared.from_level = [smooth](const Eigen::MatrixXd& force) { return (*smooth)(force); };
+  return projected(std::move(compared), *smooth);
 }
 
-FieldQuestion work_of_tension(FieldQuestion question, const Eigen::MatrixXd& position, const SurfacePoints& points) {
+ComparedField work_of_tension(ComparedField compared, const Eigen::MatrixXd& position, const SurfacePoints& points) {
   const auto smooth = std::make_shared<const SmoothPart>(points);
   std::array<Eigen::MatrixXd, 3> slopes = surface_gradients(position, each_harmonic(), points.direction);
   for (Eigen::MatrixXd& component : slopes) component = component * points.weight.asDiagonal();
-  question.from_level = [smooth, slopes](const Eigen::MatrixXd& tension) {
+  compared.from_level = [smooth, slopes](const Eigen::MatrixXd& tension) {
     Eigen::MatrixXd moments(n_harmonics, 3);
     // The divergence of w = Y e_d is the component d of ∇_γ Y.
     for (int d = 0; d < 3; ++d) moments.col(d) = -slopes[d] * tension.transpose();
     return smooth->with_moments(moments);
   };
-  return projected(std::move(question), *smooth);
+  return projected(std::move(compared), *smooth);
 }
 
 }  // namespace vehd::fem_check

@@ -7,13 +7,13 @@
 /// is known much more accurately as a functional than as a field, whose short waves contain four derivatives of x.
 namespace vehd::fem_check {
 
-/// Converts a question about a force field to one about its work on smooth displacements.
-FieldQuestion work_on_smooth(FieldQuestion question, const SurfacePoints& points);
+/// From a force field to its work on smooth displacements.
+ComparedField work_on_smooth(ComparedField compared, const SurfacePoints& points);
 
-/// Converts a question about f_λ to one about its work on smooth displacements; the levels have λ, and
+/// From f_λ to its work on smooth displacements; the levels have λ, and
 /// ∫ f_λ·w dA = −∫ λ ∇_γ·w dA.
-/// @param question  about f_λ, with `values` the name of a tension of the levels
+/// @param compared  f_λ, with `values` the name of a tension of the levels
 /// @param position  coefficients of x, [n_coefficients x 3]
-FieldQuestion work_of_tension(FieldQuestion question, const Eigen::MatrixXd& position, const SurfacePoints& points);
+ComparedField work_of_tension(ComparedField compared, const Eigen::MatrixXd& position, const SurfacePoints& points);
 
 }  // namespace vehd::fem_check

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fem_check/app/question_maker.hpp"
+#include "fem_check/app/compared_field.hpp"
 #include "fem_check/app/smooth_work.hpp"
 #include "tests/fem_check/cases.hpp"
 
@@ -38,8 +38,8 @@ LevelSequence levels() {
 }
 
 /// Boundary-integral results with an error of 1e-4.
-FieldQuestion question() {
-  FieldQuestion result;
+ComparedField compared() {
+  ComparedField result;
   result.name = result.label = result.values = "q";
   result.judged = result.bie = field();
   result.bie_high = field(1.0 + fine_error);
@@ -48,14 +48,14 @@ FieldQuestion question() {
   return result;
 }
 
-Verdict verdict(const FieldQuestion& asked, double required = 0.02) {
-  return compare(asked, levels(), {required}).verdict;
+Verdict verdict(const ComparedField& field, double required = 0.02) {
+  return compare(field, levels(), {required}).verdict;
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(right_numbers_agree_and_errors_are_differences_of_levels_and_orders) {
-  const FieldComparison result = compare(question(), levels(), {0.02});
+  const FieldComparison result = compare(compared(), levels(), {0.02});
   BOOST_TEST((result.verdict == Verdict::agree));
   BOOST_TEST(result.difference.l2 == fine_error, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(result.levels_change.l2 == 9.0 * fine_error, boost::test_tools::tolerance(1e-3));
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(right_numbers_agree_and_errors_are_differences_of_levels_an
 
 BOOST_AUTO_TEST_CASE(wrong_numbers_disagree_beyond_their_errors) {
   for (const double factor : {1.003, 0.997, -1.0, 0.5, 100.0, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
-    FieldQuestion wrong = question();
+    ComparedField wrong = compared();
     for (Eigen::MatrixXd* numbers : {&wrong.judged, &wrong.bie, &wrong.bie_high}) *numbers *= factor;
     BOOST_TEST((verdict(wrong) == Verdict::disagree), factor);
   }
@@ -75,28 +75,28 @@ BOOST_AUTO_TEST_CASE(wrong_numbers_disagree_beyond_their_errors) {
 
 // Both orders must be checked: if one correct order sufficed, the other half of the verdict could not fail.
 BOOST_AUTO_TEST_CASE(neither_order_may_be_random) {
-  FieldQuestion random = question();
+  ComparedField random = compared();
   random.bie_high = Eigen::MatrixXd::Random(1, 50);
   BOOST_TEST((verdict(random) == Verdict::undecided));
-  random = question();
+  random = compared();
   random.judged = random.bie = Eigen::MatrixXd::Random(1, 50);
   BOOST_TEST((verdict(random) != Verdict::agree));
 }
 
 BOOST_AUTO_TEST_CASE(errors_above_the_required_one_decide_nothing) {
-  BOOST_TEST((verdict(question(), 1e-3) == Verdict::agree));
-  BOOST_TEST((verdict(question(), 2e-4) == Verdict::undecided));
-  FieldQuestion coarse = question();
+  BOOST_TEST((verdict(compared(), 1e-3) == Verdict::agree));
+  BOOST_TEST((verdict(compared(), 2e-4) == Verdict::undecided));
+  ComparedField coarse = compared();
   coarse.bie_high = field(1.05);
   BOOST_TEST((verdict(coarse) == Verdict::undecided));
-  coarse = question();
+  coarse = compared();
   coarse.further_error = field(0.05);
   BOOST_TEST((verdict(coarse) == Verdict::undecided));
 }
 
 // A small field is a remainder of large ones: an error of half of it must not be hidden by their size.
 BOOST_AUTO_TEST_CASE(small_fields_are_judged_by_their_own_size) {
-  FieldQuestion small = question();
+  ComparedField small = compared();
   small.natural_size = 30.0e5;
   BOOST_TEST((verdict(small) == Verdict::agree));
   small.judged *= 1.01;
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(small_fields_are_judged_by_their_own_size) {
 }
 
 BOOST_AUTO_TEST_CASE(zero_is_judged_by_the_natural_size) {
-  FieldQuestion zero = question();
+  ComparedField zero = compared();
   for (Eigen::MatrixXd* numbers : {&zero.judged, &zero.bie, &zero.bie_high}) numbers->setZero();
   BOOST_TEST((verdict(zero) == Verdict::disagree), "the elements have a field");
   zero.natural_size = 1e6;
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(zero_is_judged_by_the_natural_size) {
 // The remainder of cancelling terms is only as accurate as the required share of those terms.
 BOOST_AUTO_TEST_CASE(vanishing_fields_are_judged_by_the_natural_size) {
   for (const double size : {0.0, 1e-12, 1e-6, 1e-3}) {
-    FieldQuestion remains = question();
+    ComparedField remains = compared();
     remains.natural_size = 30.0 / std::max(size, 1e-12);
     // Errors of a twentieth of the field, or of 5e-14 of the natural size if the field is zero.
     remains.bie_high = field(1.05);
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(vanishing_fields_are_judged_by_the_natural_size) {
     BOOST_TEST((verdict(remains) != Verdict::disagree), size);
     BOOST_TEST((verdict(remains) == Verdict::agree), size);
   }
-  FieldQuestion whole = question();
+  ComparedField whole = compared();
   whole.bie_high = field(1.05);
   BOOST_TEST((verdict(whole) == Verdict::undecided));
 }
@@ -140,19 +140,19 @@ BOOST_AUTO_TEST_CASE(vanishing_fields_are_judged_by_the_natural_size) {
 // Rounding and stopping tolerances of the solvers leave errors that no change shows: two equal computations share them.
 BOOST_AUTO_TEST_CASE(rounding_and_solvers_are_no_disagreement) {
   const auto with_difference = [](double share, double solver_tolerance) {
-    FieldQuestion asked = question();
-    asked.judge = Judge::boundary_integrals;
-    asked.bie_high = asked.bie;
-    asked.natural_size = std::sqrt(field().squaredNorm() / 50.0);
-    asked.judged = field(1.0 + share);
-    return compare(asked, levels(), {0.02, solver_tolerance}).verdict;
+    ComparedField field = compared();
+    field.reference = Reference::boundary_integrals;
+    field.bie_high = field.bie;
+    field.natural_size = std::sqrt(field().squaredNorm() / 50.0);
+    field.judged = field(1.0 + share);
+    return compare(field, levels(), {0.02, solver_tolerance}).verdict;
   };
   BOOST_TEST((with_difference(5e-10, 0.0) == Verdict::agree));
   BOOST_TEST((with_difference(1e-8, 0.0) == Verdict::disagree));
   BOOST_TEST((with_difference(1e-8, 1e-7) == Verdict::agree));
   BOOST_TEST((with_difference(1e-5, 1e-7) == Verdict::disagree));
   // For a small remainder the rounding error is relative to its terms.
-  FieldQuestion remains = question();
+  ComparedField remains = compared();
   remains.natural_size = 30.0e9;
   remains.judged = remains.bie = remains.bie_high = field(1.5);
   BOOST_TEST((verdict(remains) == Verdict::agree));
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(rounding_and_solvers_are_no_disagreement) {
 
 // A force that is not resolved as a field may still be determined by its work.
 BOOST_AUTO_TEST_CASE(undecided_force_does_not_count_beside_its_work) {
-  FieldQuestion force = question();
+  ComparedField force = compared();
   force.has_work_row = true;
   BOOST_TEST(compare(force, levels(), {0.02}).counts());
   force.bie_high = field(1.1);
@@ -176,20 +176,20 @@ BOOST_AUTO_TEST_CASE(undecided_force_does_not_count_beside_its_work) {
 BOOST_AUTO_TEST_CASE(error_of_the_linear_solver_is_measured) {
   LevelSequence sequence = levels();
   sequence.loose = level(0.5, 1000);
-  const FieldComparison result = compare(question(), sequence, {0.02});
+  const FieldComparison result = compare(compared(), sequence, {0.02});
   BOOST_TEST(result.solver > 0.04);
   BOOST_TEST((result.verdict == Verdict::undecided));
 }
 
 BOOST_AUTO_TEST_CASE(background_does_not_hide_the_disturbance) {
-  FieldQuestion asked = question();
+  ComparedField field = compared();
   const Eigen::MatrixXd background = Eigen::MatrixXd::Constant(1, 50, 1e5);
   LevelSequence shifted = levels();
   for (Level* each : {&shifted.levels[0], &shifted.levels[1], &shifted.levels[2], &shifted.truncated, &shifted.loose}) {
     each->surface["q"] += background;
   }
-  for (Eigen::MatrixXd* numbers : {&asked.judged, &asked.bie, &asked.bie_high}) *numbers = 1.01 * *numbers + background;
-  BOOST_TEST((compare(without(asked, background), shifted, {0.02}).verdict == Verdict::disagree));
+  for (Eigen::MatrixXd* numbers : {&field.judged, &field.bie, &field.bie_high}) *numbers = 1.01 * *numbers + background;
+  BOOST_TEST((compare(without(field, background), shifted, {0.02}).verdict == Verdict::disagree));
 }
 
 // A force is more accurate as a functional on smooth displacements than as a field: waves of high degree do not
@@ -201,15 +201,15 @@ BOOST_AUTO_TEST_CASE(work_on_smooth_displacements_is_that_of_the_whole_force) {
   const auto low = harmonics.topRows(25);
   const Eigen::MatrixXd smooth = Eigen::MatrixXd::Random(3, 25) * low;
   const Eigen::MatrixXd wave = 0.3 * Vector3(1.0, -2.0, 0.5) * harmonics.row(90);
-  FieldQuestion asked;
-  asked.values = "bending";
-  asked.weight = points.weight;
-  asked.judged = asked.bie = asked.bie_high = smooth;
+  ComparedField field;
+  field.values = "bending";
+  field.weight = points.weight;
+  field.judged = field.bie = field.bie_high = smooth;
   LevelSequence sequence = levels();
   for (Level& each : sequence.levels) each.surface["bending"] = smooth + wave;
-  BOOST_TEST((compare(asked, sequence, {0.02}).verdict == Verdict::disagree), "the wave is in the field");
+  BOOST_TEST((compare(field, sequence, {0.02}).verdict == Verdict::disagree), "the wave is in the field");
 
-  const FieldQuestion work = work_on_smooth(asked, points);
+  const ComparedField work = work_on_smooth(field, points);
   const Eigen::MatrixXd of_level = work.from_level(smooth + wave);
   const Eigen::MatrixXd moments = (smooth + wave) * points.weight.asDiagonal() * low.transpose();
   BOOST_TEST((of_level * points.weight.asDiagonal() * low.transpose() - moments).norm() < 1e-12 * moments.norm());
@@ -224,33 +224,33 @@ BOOST_AUTO_TEST_CASE(work_of_a_tension_force_follows_from_the_tension) {
       discretise(vehd::meshes::FrozenShape(sphere), {.cells_per_edge = 2, .shell_layers = 2, .degree = 5});
   const SurfacePoints points = space.quadrature_points(10);
   Eigen::MatrixXd tension(1, points.size());
-  FieldQuestion asked = question();
-  asked.judged.resize(3, points.size());
+  ComparedField field = compared();
+  field.judged.resize(3, points.size());
   for (Eigen::Index i = 0; i < points.size(); ++i) {
     const Vector3 n = points.direction.col(i);
     tension(0, i) = n.z() + n.z() * n.z();
-    asked.judged.col(i) = (1.0 + 2.0 * n.z()) * (Vector3::UnitZ() - n.z() * n) - 2.0 * tension(0, i) * n;
+    field.judged.col(i) = (1.0 + 2.0 * n.z()) * (Vector3::UnitZ() - n.z() * n) - 2.0 * tension(0, i) * n;
   }
-  asked.bie = asked.bie_high = asked.judged;
-  const FieldQuestion work = work_of_tension(asked, sphere, points);
-  BOOST_TEST((work.judged - asked.judged).norm() < 1e-4 * asked.judged.norm());
+  field.bie = field.bie_high = field.judged;
+  const ComparedField work = work_of_tension(field, sphere, points);
+  BOOST_TEST((work.judged - field.judged).norm() < 1e-4 * field.judged.norm());
   BOOST_TEST((work.from_level(tension) - work.judged).norm() < 1e-4 * work.judged.norm());
 }
 
 BOOST_AUTO_TEST_CASE(numbers_without_finite_elements_are_judged_by_the_boundary_integrals) {
-  FieldQuestion asked = question();
-  asked.judge = Judge::boundary_integrals;
-  BOOST_TEST((verdict(asked) == Verdict::agree));
-  BOOST_TEST(compare(asked, levels(), {0.02}).fem_error() == 0.0);
-  asked.judged *= 1.001;
-  BOOST_TEST((verdict(asked) == Verdict::disagree));
+  ComparedField field = compared();
+  field.reference = Reference::boundary_integrals;
+  BOOST_TEST((verdict(field) == Verdict::agree));
+  BOOST_TEST(compare(field, levels(), {0.02}).fem_error() == 0.0);
+  field.judged *= 1.001;
+  BOOST_TEST((verdict(field) == Verdict::disagree));
 }
 
 // If levels agree successively, the last change is no larger than the error itself.
 BOOST_AUTO_TEST_CASE(difference_of_the_size_of_the_last_change_is_no_disagreement) {
-  FieldQuestion asked = question();
-  for (Eigen::MatrixXd* numbers : {&asked.judged, &asked.bie, &asked.bie_high}) *numbers *= 1.0 + 9.0 * fine_error;
-  BOOST_TEST((verdict(asked) == Verdict::agree));
+  ComparedField field = compared();
+  for (Eigen::MatrixXd* numbers : {&field.judged, &field.bie, &field.bie_high}) *numbers *= 1.0 + 9.0 * fine_error;
+  BOOST_TEST((verdict(field) == Verdict::agree));
 }
 
 // If raising the degree of the elements converges no faster than refining them, the last change is smaller than the
@@ -261,7 +261,7 @@ BOOST_AUTO_TEST_CASE(slow_convergence_leaves_more_than_the_last_change) {
     for (int i = 0; i < 3; ++i) {
       slow.levels[i] = level(100 * fine_error * std::pow(2.0, -order * i / 3.0), 1000 << i);
     }
-    return compare(question(), slow, {0.02});
+    return compare(compared(), slow, {0.02});
   };
   for (const double order : {1.0, 1.5, 2.0, 3.0}) {
     const FieldComparison result = with_order(order);
@@ -277,7 +277,7 @@ BOOST_AUTO_TEST_CASE(slow_convergence_leaves_more_than_the_last_change) {
 BOOST_AUTO_TEST_CASE(a_magnified_tolerance_of_the_solvers_decides_nothing) {
   LevelSequence sequence = levels();
   sequence.tolerance = 1e-8;
-  FieldQuestion steady = question();
+  ComparedField steady = compared();
   steady.judged *= 1.05;
   BOOST_TEST((compare(steady, sequence, {0.02}).verdict == Verdict::disagree));
   steady.solver_magnification = 1e7;
@@ -293,7 +293,7 @@ BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
     LevelSequence sequence = levels();
     sequence.levels = {level(coarse, 1000), level(middle, 2000), level(fine, 4000)};
     sequence.truncated = sequence.loose = sequence.levels.front();
-    return compare(question(), sequence, {0.02});
+    return compare(compared(), sequence, {0.02});
   };
   const FieldComparison far = with_errors(0.8, 0.45, 0.26);
   BOOST_TEST(far.order.value() > 2.5);
@@ -308,15 +308,15 @@ BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
 // estimate comes from the other degree, which has a truncation error too.
 BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_includes_the_difference_to_the_other_degree) {
   const auto with_errors = [](int degree, double error, int other, double other_error) {
-    FieldQuestion asked = question();
-    asked.judged = asked.bie = field(1.0 - error);
-    asked.bie_high = field(1.0 - other_error);
-    asked.degrees = {degree, other, {}};
+    ComparedField field = compared();
+    field.judged = field.bie = field(1.0 - error);
+    field.bie_high = field(1.0 - other_error);
+    field.degrees = {degree, other, {}};
     LevelSequence exact = levels();
     for (Level* each : {&exact.levels[0], &exact.levels[1], &exact.levels[2], &exact.truncated, &exact.loose}) {
       each->surface["q"] = field();
     }
-    return compare(asked, exact, {0.05});
+    return compare(field, exact, {0.05});
   };
   const auto geometric = [&](double rate, int degree, int other) {
     return with_errors(degree, std::pow(rate, degree), other, std::pow(rate, other));
@@ -334,7 +334,7 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_includes_the_difference_to_the_
     BOOST_TEST(result.bie_error() == error, boost::test_tools::tolerance(0.03));
   }
   // Faster decay of the coefficients gives a sharper estimate.
-  FieldQuestion bulbs = question();
+  ComparedField bulbs = compared();
   bulbs.bie_high = field(1.022);
   bulbs.degrees = {24, 28, {}};
   BOOST_TEST((compare(bulbs, levels(), {0.05}).verdict == Verdict::undecided));
@@ -354,7 +354,7 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_includes_the_difference_to_the_
 
 BOOST_AUTO_TEST_CASE(decay_of_coefficients_is_that_from_band_to_band) {
   const Discretisation space = discretise(shapes::shape_33(), {.cells_per_edge = 2, .shell_layers = 2, .degree = 3});
-  const ComparisonPlaces places{space.quadrature_points(4)};
+  const ComparisonPoints at{space.quadrature_points(4)};
   // Amplitude r^n/√(2n+1) of each coefficient, hence r^n in each degree.
   const auto series = [](int degree, double rate) {
     Eigen::MatrixXd values((degree + 1) * (degree + 1), 1);
@@ -364,18 +364,18 @@ BOOST_AUTO_TEST_CASE(decay_of_coefficients_is_that_from_band_to_band) {
     return values;
   };
   for (const auto& [judged, other] : {std::pair{8, 10}, std::pair{10, 8}}) {
-    const FieldQuestion asked = QuestionMaker(places).on_surface("q", "q", "q", series(judged, 0.7),
-                                                                 series(judged, 0.7), series(other, 0.7), 1.0);
-    BOOST_TEST(asked.degrees.judged == judged);
-    BOOST_TEST(asked.degrees.other == other);
-    BOOST_TEST(asked.degrees.decay.value() == 0.49, boost::test_tools::tolerance(1e-10));
+    const ComparedField field =
+        field_on_surface(at, "q", "q", "q", series(judged, 0.7), series(judged, 0.7), series(other, 0.7), 1.0);
+    BOOST_TEST(field.degrees.judged == judged);
+    BOOST_TEST(field.degrees.other == other);
+    BOOST_TEST(field.degrees.decay.value() == 0.49, boost::test_tools::tolerance(1e-10));
   }
 }
 
 BOOST_AUTO_TEST_CASE(single_level_has_an_unknown_error) {
   LevelSequence one = levels();
   one.levels = {one.levels.back()};
-  BOOST_TEST((compare(question(), one, {0.02}).verdict == Verdict::undecided));
+  BOOST_TEST((compare(compared(), one, {0.02}).verdict == Verdict::undecided));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,4 +1,4 @@
-#include "fem_check/app/questions.hpp"
+#include "fem_check/app/compared_fields.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -8,7 +8,7 @@
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
 
-BOOST_AUTO_TEST_SUITE(questions)
+BOOST_AUTO_TEST_SUITE(fields)
 
 namespace {
 
@@ -41,12 +41,12 @@ LevelSequence levels_without(double share, const CheckInput& input, const Surfac
 // The conductance of pores that open on a small part of the membrane has a higher degree than the run.
 BOOST_AUTO_TEST_CASE(conductance_of_pores_beyond_the_degree_of_the_run_is_an_error_of_the_run) {
   const Discretisation space = discretise(unit_sphere(), {.degree = 2});
-  const ComparisonPlaces places{space.quadrature_points(6), 1.0, Vector3::Zero()};
+  const ComparisonPoints at{space.quadrature_points(6), 1.0, Vector3::Zero()};
   const double missing = 0.01;
   for (const double truncation : {0.0, missing}) {
     const CheckInput input = porous_sphere(truncation);
-    const FieldQuestion question = current_questions(input, places).front();
-    const FieldComparison row = compare(question, levels_without(missing, input, places.surface), {0.02});
+    const ComparedField compared = charging_currents(input, at).front();
+    const FieldComparison row = compare(compared, levels_without(missing, input, at.surface), {0.02});
     BOOST_TEST((row.verdict == (truncation > 0.0 ? Verdict::agree : Verdict::disagree)));
     BOOST_TEST(row.bie_error() >= truncation * row.difference.l2 / missing);
   }

@@ -1,4 +1,4 @@
-#include "fem_check/app/question_maker.hpp"
+#include "fem_check/app/compared_field.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@ double mean_size(const Eigen::MatrixXd& coefficients, const SurfacePoints& point
   return std::sqrt(values.colwise().squaredNorm().dot(points.weight) / points.weight.sum());
 }
 
-NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPlaces& places) {
+NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPoints& at) {
   const Physics& physics = input.physics;
-  const double radius = places.radius, potential = mean_size(input.potential, places.surface);
+  const double radius = at.radius, potential = mean_size(input.potential, at.surface);
   const double inside = physics.conductivity_in, outside = physics.conductivity_out;
   NaturalSizes sizes;
   sizes.potential = physics.field.norm() * radius + potential;
@@ -26,11 +26,10 @@ NaturalSizes natural_sizes(const CheckInput& input, const ComparisonPlaces& plac
   sizes.charge = input.charged_faces() ? sizes.field : sizes.field * std::abs(inside - outside) / (inside + outside);
   sizes.electric_force = physics.permittivity_out * sizes.field * sizes.field;
   sizes.current = inside * outside / (inside + outside) * sizes.field + physics.conductance * potential +
-                  mean_size(input.conductance, places.surface) * potential +
-                  mean_size(input.pump_current, places.surface);
+                  mean_size(input.conductance, at.surface) * potential + mean_size(input.pump_current, at.surface);
   const double shear = physics.flow_gradient.norm();
   sizes.force = physics.bending_modulus / (radius * radius * radius) + physics.viscosity_out * shear +
-                mean_size(input.force, places.surface);
+                mean_size(input.force, at.surface);
   sizes.velocity = sizes.force * radius / physics.viscosity_out;
   sizes.rate = sizes.velocity / radius;
   return sizes;
@@ -59,39 +58,39 @@ std::optional<double> decay_of(const Eigen::MatrixXd& finer, const Degrees& degr
 
 }  // namespace
 
-FieldQuestion QuestionMaker::on_surface(const std::string& name, const std::string& label, const std::string& values,
-                                        const Eigen::MatrixXd& judged, const Eigen::MatrixXd& bie,
-                                        const Eigen::MatrixXd& bie_high, double natural_size) const {
-  const SurfacePoints& points = places_.surface;
-  FieldQuestion question;
-  question.name = name;
-  question.label = label;
-  question.values = values;
-  question.judged = SurfaceSeries(judged)(points);
-  question.bie = SurfaceSeries(bie)(points);
-  question.bie_high = SurfaceSeries(bie_high)(points);
-  question.degrees = {degree_of(bie), degree_of(bie_high), {}};
-  question.degrees.decay = decay_of(bie.rows() > bie_high.rows() ? bie : bie_high, question.degrees);
-  question.weight = points.weight;
-  question.natural_size = natural_size;
-  return question;
+ComparedField field_on_surface(const ComparisonPoints& at, const std::string& name, const std::string& label,
+                               const std::string& values, const Eigen::MatrixXd& judged, const Eigen::MatrixXd& bie,
+                               const Eigen::MatrixXd& bie_high, double natural_size) {
+  const SurfacePoints& points = at.surface;
+  ComparedField compared;
+  compared.name = name;
+  compared.label = label;
+  compared.values = values;
+  compared.judged = SurfaceSeries(judged)(points);
+  compared.bie = SurfaceSeries(bie)(points);
+  compared.bie_high = SurfaceSeries(bie_high)(points);
+  compared.degrees = {degree_of(bie), degree_of(bie_high), {}};
+  compared.degrees.decay = decay_of(bie.rows() > bie_high.rows() ? bie : bie_high, compared.degrees);
+  compared.weight = points.weight;
+  compared.natural_size = natural_size;
+  return compared;
 }
 
-FieldQuestion without_uniform_tension(FieldQuestion question, const SurfacePoints& points) {
-  for (Eigen::MatrixXd* values : {&question.judged, &question.bie, &question.bie_high}) {
+ComparedField without_uniform_tension(ComparedField compared, const SurfacePoints& points) {
+  for (Eigen::MatrixXd* values : {&compared.judged, &compared.bie, &compared.bie_high}) {
     const bool is_tension = values->rows() == 1;
     const Eigen::MatrixXd direction =
         is_tension ? Eigen::MatrixXd(Eigen::MatrixXd::Ones(1, points.size())) : Eigen::MatrixXd(points.normal);
     const double mean = values->cwiseProduct(direction).colwise().sum().dot(points.weight) / points.weight.sum();
     *values -= mean * direction;
   }
-  return question;
+  return compared;
 }
 
-FieldQuestion without(FieldQuestion question, const Eigen::MatrixXd& of_points) {
-  for (Eigen::MatrixXd* field : {&question.judged, &question.bie, &question.bie_high}) *field -= of_points;
-  question.from_level = [of_points](const Eigen::MatrixXd& values) { return Eigen::MatrixXd(values - of_points); };
-  return question;
+ComparedField without(ComparedField compared, const Eigen::MatrixXd& of_points) {
+  for (Eigen::MatrixXd* field : {&compared.judged, &compared.bie, &compared.bie_high}) *field -= of_points;
+  compared.from_level = [of_points](const Eigen::MatrixXd& values) { return Eigen::MatrixXd(values - of_points); };
+  return compared;
 }
 
 }  // namespace vehd::fem_check
