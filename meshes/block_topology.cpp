@@ -214,7 +214,7 @@ MeshTopology make_block_topology(const BlockMeshOptions& options, double shell_g
         fmt::format("gmsh made {} hexahedra of the reference block mesh, not {}", topology.cells.size(), expected));
   }
   find_interface(topology);
-  if (options.split_interface) split_interface(topology);
+  split_interface(topology);
   return topology;
 }
 

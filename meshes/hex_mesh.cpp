@@ -87,32 +87,13 @@ double shell_growth(const BlockMeshOptions& options, double radius) {
 
 namespace {
 
-using Maps = std::vector<std::shared_ptr<const BlockMap>>;
-
-std::vector<HexMesh> meshes_of(const FrozenShape& shape, const std::vector<BlockMeshOptions>& options,
-                               const Maps& maps) {
-  std::vector<HexMesh> meshes;
-  for (std::size_t i = 0; i < options.size(); ++i) {
-    meshes.emplace_back(make_block_topology(options[i], shell_growth(options[i], shape.radius())), maps[i]);
-  }
-  return meshes;
+HexMesh mesh_of(const FrozenShape& shape, const BlockMeshOptions& options, std::shared_ptr<const BlockMap> map) {
+  return {make_block_topology(options, shell_growth(options, shape.radius())), std::move(map)};
 }
 
-Maps blended_maps(const FrozenShape& shape, const std::vector<BlockMeshOptions>& options, const BlockAxes& axes) {
-  Maps maps;
-  for (const BlockMeshOptions& o : options) {
-    maps.push_back(std::make_shared<const BlendedMap>(shape, axes, o.outer_radius, o.core_fraction));
-  }
-  return maps;
-}
-
-Maps relaxed_maps(const FrozenShape& shape, const std::vector<BlockMeshOptions>& options, const BlockAxes& axes) {
-  const auto blocks = std::make_shared<const RelaxedBlocks>(shape, axes, options.front());
-  Maps maps;
-  for (const BlockMeshOptions& o : options) {
-    maps.push_back(std::make_shared<const RelaxedMap>(shape, axes, o.outer_radius, blocks));
-  }
-  return maps;
+HexMesh straight_mesh(const FrozenShape& shape, const BlockMeshOptions& options, const BlockAxes& axes) {
+  return mesh_of(shape, options,
+                 std::make_shared<const BlendedMap>(shape, axes, options.outer_radius, options.core_fraction));
 }
 
 MeshQuality quality_of(const HexMesh& mesh, const FrozenShape& shape) {
@@ -125,39 +106,29 @@ bool is_folded(const HexMesh& mesh, const FrozenShape& shape, const BlockMeshOpt
   return quality_of(mesh, shape).smallest_scaled_jacobian < options.smallest_scaled_jacobian;
 }
 
-std::vector<HexMesh> make_meshes(const FrozenShape& shape, std::vector<BlockMeshOptions> options,
-                                 const BlockAxes& axes) {
-  std::vector<HexMesh> meshes = meshes_of(shape, options, blended_maps(shape, options, axes));
-  if (is_folded(meshes.front(), shape, options.front())) {
-    for (BlockMeshOptions& o : options) o.cells_per_edge += o.cells_per_edge % 2;  // kinks of the map lie between cells
-    meshes = meshes_of(shape, options, relaxed_maps(shape, options, axes));
-  }
-  for (std::size_t i = 0; i < options.size(); ++i) {
-    require_quality(quality_of(meshes[i], shape), options[i].smallest_scaled_jacobian);
-  }
-  return meshes;
-}
-
 }  // namespace
 
 bool cells_have_to_be_relaxed(const FrozenShape& shape, const BlockMeshOptions& options) {
   require_options(options);
-  const std::vector<BlockMeshOptions> one{options};
-  return is_folded(meshes_of(shape, one, blended_maps(shape, one, best_axes(shape))).front(), shape, options);
+  return is_folded(straight_mesh(shape, options, best_axes(shape)), shape, options);
 }
 
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options) {
-  return std::move(make_block_meshes(shape, {options}).front());
+  require_options(options);
+  return make_block_mesh(shape, options, best_axes(shape));
 }
 
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options, const BlockAxes& axes) {
   require_options(options);
-  return std::move(make_meshes(shape, {options}, axes).front());
-}
-
-std::vector<HexMesh> make_block_meshes(const FrozenShape& shape, const std::vector<BlockMeshOptions>& options) {
-  for (const BlockMeshOptions& o : options) require_options(o);
-  return make_meshes(shape, options, best_axes(shape));
+  HexMesh mesh = straight_mesh(shape, options, axes);
+  if (is_folded(mesh, shape, options)) {
+    BlockMeshOptions even = options;
+    even.cells_per_edge += even.cells_per_edge % 2;  // kinks of the map lie between cells
+    const auto blocks = std::make_shared<const RelaxedBlocks>(shape, axes, even);
+    mesh = mesh_of(shape, even, std::make_shared<const RelaxedMap>(shape, axes, even.outer_radius, blocks));
+  }
+  require_quality(quality_of(mesh, shape), options.smallest_scaled_jacobian);
+  return mesh;
 }
 
 }  // namespace vehd::meshes

@@ -209,7 +209,7 @@ TetMesh filled_with_curved_tetrahedra(const FrozenShape& shape, const TetMeshOpt
   std::vector<TetMesh::Nodes> nodes;
   for (const MeshCell& cell : topology.cells) nodes.push_back(make_nodes(cell, topology.vertices, membrane, parts));
   find_interface(topology);
-  if (options.split_interface) split_interface(topology);
+  split_interface(topology);
   return {std::move(topology), std::move(nodes), centre, radius};
 }
 

@@ -69,13 +69,12 @@ struct BlockMeshOptions {
   /// Along each edge of the 6 blocks that divide the membrane; also in the core. If the cells are relaxed (see
   /// make_block_mesh), an odd number is increased by one.
   int cells_per_edge = 4;
-  int blend_layers = 2;         ///< between core and membrane
-  int shell_layers = 4;         ///< between membrane and outer sphere
-  double blend_growth = 1.0;    ///< thickness of a blend layer over that of the next one towards the membrane
-  double shell_growth = 0.0;    ///< the same in the shell; 0: similar cells, (R/radius)^(1/layers)
-  double core_fraction = 0.6;   ///< half-width of the core over the width available within the shape
-  double outer_radius = 8.0;    ///< R, about the centroid of the shape
-  bool split_interface = true;  ///< inside and outside share no vertex
+  int blend_layers = 2;        ///< between core and membrane
+  int shell_layers = 4;        ///< between membrane and outer sphere
+  double blend_growth = 1.0;   ///< thickness of a blend layer over that of the next one towards the membrane
+  double shell_growth = 0.0;   ///< the same in the shell; 0: similar cells, (R/radius)^(1/layers)
+  double core_fraction = 0.6;  ///< half-width of the core over the width available within the shape
+  double outer_radius = 8.0;   ///< R, about the centroid of the shape
   double smallest_scaled_jacobian = 0.02;  ///< below this an element is too flat
 };
 
@@ -110,18 +109,12 @@ HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& option
 /// @throws MeshError if the outer sphere does not enclose the shape; std::invalid_argument as make_block_mesh
 bool cells_have_to_be_relaxed(const FrozenShape& shape, const BlockMeshOptions& options);
 
-/// Meshes of one shape that differ only in the layers of the shell; the relaxation of the inner layers is computed once
-/// for all of them.
-/// @throws MeshError, std::invalid_argument as make_block_mesh
-std::vector<HexMesh> make_block_meshes(const FrozenShape& shape, const std::vector<BlockMeshOptions>& options);
-
 /// Sizes of the tetrahedral mesh. Lengths are in units of FrozenShape::radius() unless stated otherwise.
 struct TetMeshOptions {
   double surface_size = 0.25;              ///< edge length on the membrane
   double growth = 0.35;                    ///< edge length = surface_size + growth · distance from the membrane
   double largest_size = 2.5;               ///< upper limit of the edge length
   double outer_radius = 8.0;               ///< R, an absolute length, about the centroid of the shape
-  bool split_interface = true;             ///< inside and outside share no vertex
   double smallest_scaled_jacobian = 0.01;  ///< below this an element is too flat
 };
 

@@ -94,13 +94,6 @@ BOOST_AUTO_TEST_CASE(jacobian_is_the_derivative_of_the_map) {
   BOOST_TEST(batch_gap(mesh) < 1e-14);
 }
 
-BOOST_AUTO_TEST_CASE(unsplit_mesh_shares_the_vertices_of_the_membrane) {
-  TetMeshOptions options;
-  options.split_interface = false;
-  const TetMesh mesh = make_tetrahedral_mesh(prolate(), options);
-  BOOST_TEST(vertices_of_both_regions(mesh) == int(mesh.topology().interface_vertices.size()));
-}
-
 BOOST_AUTO_TEST_CASE(two_runs_give_the_same_mesh) {
   BOOST_TEST(identical(make_tetrahedral_mesh(disc()), make_tetrahedral_mesh(disc())));
 }
