@@ -120,15 +120,14 @@ HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& option
 
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options, const BlockAxes& axes) {
   require_options(options);
-  HexMesh mesh = straight_mesh(shape, options, axes);
-  if (is_folded(mesh, shape, options)) {
-    BlockMeshOptions even = options;
-    even.cells_per_edge += even.cells_per_edge % 2;  // kinks of the map lie between cells
-    const auto blocks = std::make_shared<const RelaxedBlocks>(shape, axes, even);
-    mesh = mesh_of(shape, even, std::make_shared<const RelaxedMap>(shape, axes, even.outer_radius, blocks));
-  }
-  require_quality(quality_of(mesh, shape), options.smallest_scaled_jacobian);
-  return mesh;
+  HexMesh straight = straight_mesh(shape, options, axes);
+  if (!is_folded(straight, shape, options)) return straight;
+  BlockMeshOptions even = options;
+  even.cells_per_edge += even.cells_per_edge % 2;  // kinks of the map lie between cells
+  const auto blocks = std::make_shared<const RelaxedBlocks>(shape, axes, even);
+  HexMesh relaxed = mesh_of(shape, even, std::make_shared<const RelaxedMap>(shape, axes, even.outer_radius, blocks));
+  require_quality(quality_of(relaxed, shape), options.smallest_scaled_jacobian);
+  return relaxed;
 }
 
 }  // namespace vehd::meshes
