@@ -18,13 +18,13 @@ namespace {
 constexpr double fine_error = 1e-4, solver_error = 1e-6;
 
 /// A field with the values 1 … n and equal weights.
-Eigen::MatrixXd field(double factor = 1.0) { return factor * Vector::LinSpaced(50, 1.0, 50.0).transpose(); }
+Eigen::MatrixXd values(double factor = 1.0) { return factor * Vector::LinSpaced(50, 1.0, 50.0).transpose(); }
 
 Level level(double error, long n_unknowns) {
   Level result;
   result.problem = "potential";
   result.n_unknowns = n_unknowns;
-  result.surface["q"] = field(1.0 + error);
+  result.surface["q"] = values(1.0 + error);
   return result;
 }
 
@@ -41,8 +41,8 @@ LevelSequence levels() {
 ComparedField compared() {
   ComparedField result;
   result.name = result.label = result.values = "q";
-  result.judged = result.bie = field();
-  result.bie_high = field(1.0 + fine_error);
+  result.judged = result.bie = values();
+  result.bie_high = values(1.0 + fine_error);
   result.weight = Vector::Ones(50);
   result.natural_size = 30.0;
   return result;
@@ -87,10 +87,10 @@ BOOST_AUTO_TEST_CASE(errors_above_the_required_one_decide_nothing) {
   BOOST_TEST((verdict(compared(), 1e-3) == Verdict::agree));
   BOOST_TEST((verdict(compared(), 2e-4) == Verdict::undecided));
   ComparedField coarse = compared();
-  coarse.bie_high = field(1.05);
+  coarse.bie_high = values(1.05);
   BOOST_TEST((verdict(coarse) == Verdict::undecided));
   coarse = compared();
-  coarse.further_error = field(0.05);
+  coarse.further_error = values(0.05);
   BOOST_TEST((verdict(coarse) == Verdict::undecided));
 }
 
@@ -124,16 +124,16 @@ BOOST_AUTO_TEST_CASE(vanishing_fields_are_judged_by_the_natural_size) {
     ComparedField remains = compared();
     remains.natural_size = 30.0 / std::max(size, 1e-12);
     // Errors of a twentieth of the field, or of 5e-14 of the natural size if the field is zero.
-    remains.bie_high = field(1.05);
+    remains.bie_high = values(1.05);
     if (size == 0.0) {
       for (Eigen::MatrixXd* numbers : {&remains.judged, &remains.bie}) numbers->setZero();
-      remains.bie_high = 0.05 * field();
+      remains.bie_high = 0.05 * values();
     }
     BOOST_TEST((verdict(remains) != Verdict::disagree), size);
     BOOST_TEST((verdict(remains) == Verdict::agree), size);
   }
   ComparedField whole = compared();
-  whole.bie_high = field(1.05);
+  whole.bie_high = values(1.05);
   BOOST_TEST((verdict(whole) == Verdict::undecided));
 }
 
@@ -143,8 +143,8 @@ BOOST_AUTO_TEST_CASE(rounding_and_solvers_are_no_disagreement) {
     ComparedField field = compared();
     field.reference = Reference::boundary_integrals;
     field.bie_high = field.bie;
-    field.natural_size = std::sqrt(field().squaredNorm() / 50.0);
-    field.judged = field(1.0 + share);
+    field.natural_size = std::sqrt(values().squaredNorm() / 50.0);
+    field.judged = values(1.0 + share);
     return compare(field, levels(), {0.02, solver_tolerance}).verdict;
   };
   BOOST_TEST((with_difference(5e-10, 0.0) == Verdict::agree));
@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(rounding_and_solvers_are_no_disagreement) {
   // For a small remainder the rounding error is relative to its terms.
   ComparedField remains = compared();
   remains.natural_size = 30.0e9;
-  remains.judged = remains.bie = remains.bie_high = field(1.5);
+  remains.judged = remains.bie = remains.bie_high = values(1.5);
   BOOST_TEST((verdict(remains) == Verdict::agree));
 }
 
@@ -163,12 +163,12 @@ BOOST_AUTO_TEST_CASE(undecided_force_does_not_count_beside_its_work) {
   ComparedField force = compared();
   force.has_work_row = true;
   BOOST_TEST(compare(force, levels(), {0.02}).counts());
-  force.bie_high = field(1.1);
+  force.bie_high = values(1.1);
   BOOST_TEST(!compare(force, levels(), {0.02}).counts());
   force.judged *= 2.0;
   BOOST_TEST(compare(force, levels(), {0.02}).counts());
   force.has_work_row = false;
-  force.judged = field();
+  force.judged = values();
   BOOST_TEST(compare(force, levels(), {0.02}).counts());
 }
 
@@ -309,12 +309,12 @@ BOOST_AUTO_TEST_CASE(levels_that_differ_by_much_of_the_field_show_no_order) {
 BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_includes_the_difference_to_the_other_degree) {
   const auto with_errors = [](int degree, double error, int other, double other_error) {
     ComparedField field = compared();
-    field.judged = field.bie = field(1.0 - error);
-    field.bie_high = field(1.0 - other_error);
+    field.judged = field.bie = values(1.0 - error);
+    field.bie_high = values(1.0 - other_error);
     field.degrees = {degree, other, {}};
     LevelSequence exact = levels();
     for (Level* each : {&exact.levels[0], &exact.levels[1], &exact.levels[2], &exact.truncated, &exact.loose}) {
-      each->surface["q"] = field();
+      each->surface["q"] = values();
     }
     return compare(field, exact, {0.05});
   };
@@ -335,7 +335,7 @@ BOOST_AUTO_TEST_CASE(error_of_boundary_integrals_includes_the_difference_to_the_
   }
   // Faster decay of the coefficients gives a sharper estimate.
   ComparedField bulbs = compared();
-  bulbs.bie_high = field(1.022);
+  bulbs.bie_high = values(1.022);
   bulbs.degrees = {24, 28, {}};
   BOOST_TEST((compare(bulbs, levels(), {0.05}).verdict == Verdict::undecided));
   bulbs.degrees.decay = 0.2;
