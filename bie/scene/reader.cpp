@@ -23,9 +23,20 @@ namespace {
 
 constexpr std::string_view vesicle_table = "vesicle";
 
+/// Names of the keys of a table and of the tables in it.
+std::vector<std::string_view> names_in(std::string_view table) {
+  std::vector<std::string_view> names = key_names(table);
+  const std::string start = fmt::format("{}.", table);
+  for (const TableDescription& other : scene_tables()) {
+    const std::string_view name = other.name;
+    if (name.starts_with(start) && name.rfind('.') == table.size()) names.push_back(name.substr(start.size()));
+  }
+  return names;
+}
+
 std::string unknown_key_text(std::string_view table, std::string_view name) {
   const std::string start = fmt::format("unknown key \"{}\" in [{}]", name, table);
-  const std::vector<std::string_view> own = key_names(table);
+  const std::vector<std::string_view> own = names_in(table);
   const std::vector<std::string_view> owners = tables_with(name);
   // A typing error is likelier than a key in a wrong table.
   if (owners.empty() || is_one_letter_off(name, own)) return fmt::format("{}; {}", start, suggestion(name, own));

@@ -40,6 +40,11 @@ BOOST_AUTO_TEST_CASE(unknown_table_names_the_nearest) {
   BOOST_TEST(message_with("[membran]\n") == "scene.toml:8: unknown table \"membran\"; did you mean \"membrane\"?");
 }
 
+BOOST_AUTO_TEST_CASE(unknown_table_in_a_table_names_the_nearest) {
+  BOOST_TEST(message_with("[membrane.varing_bending]\n") ==
+             "scene.toml:8: unknown key \"varing_bending\" in [membrane]; did you mean \"varying_bending\"?");
+}
+
 BOOST_AUTO_TEST_CASE(unknown_key_outside_of_tables) {
   BOOST_TEST(message_of("axis = 1\n") ==
              "scene.toml:1: unknown key \"axis\"; accepted: units, shape, membrane, fluid, gravity, contact, wall, "
