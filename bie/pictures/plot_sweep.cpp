@@ -6,6 +6,7 @@
 
 #include "bie/pictures/page.hpp"
 #include "bie/pictures/plots.hpp"
+#include "bie/pictures/shown_numbers.hpp"
 #include "bie/pictures/sweep_frame.hpp"
 #include "bie/pictures/sweep_map.hpp"
 #include "bie/pictures/sweep_means.hpp"
