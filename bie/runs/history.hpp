@@ -40,7 +40,7 @@ struct HistoryKind {
 
   Rows rows;
   std::optional<PorationModel> poration{};  ///< model whose columns it has
-  bool varying = false;                     ///< has columns of a membrane with spatially varying parameters
+  bool varying = false;                     ///< has columns of a membrane that varies in space or pumps
   bool wall = false;                        ///< has columns of a wall
 };
 

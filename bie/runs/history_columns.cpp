@@ -290,7 +290,7 @@ const std::vector<HistoryColumn>& history_columns(HistoryKind kind) {
 HistoryKind history_kind(const Scene& scene) {
   HistoryKind kind(scene.vesicles.size() > 1 ? HistoryKind::of_all : HistoryKind::of_one);
   if (scene.poration) kind.poration = scene.poration->model;
-  kind.varying = has_varying_properties(scene);
+  kind.varying = varies_or_pumps(scene);
   kind.wall = scene.wall.has_value();
   return kind;
 }

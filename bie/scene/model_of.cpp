@@ -53,8 +53,7 @@ VesicleModel vesicle_of(const Scene& scene) {
   VesicleModel vesicle;
   vesicle.viscosity_ratio = scene.fluid.viscosity_ratio;
   vesicle.inextensible = m.inextensible;
-  vesicle.has_varying_properties =
-      m.varying_capacitance || m.varying_conductance || m.varying_bending || m.varying_curvature;
+  vesicle.has_varying_properties = has_varying_properties(m);
   if (const double modulus = m.bending_modulus.value_or(0.0); modulus > 0.0) {
     vesicle.bending = BendingParameters{modulus};
     if (m.undulations) {

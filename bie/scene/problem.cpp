@@ -33,7 +33,7 @@ Problem problem_from(const Scene& scene, const Model& without_areas, const State
     vesicle.position = std::move(membrane.position);
     vesicle.transmembrane_potential = std::move(membrane.potential);
     vesicle.area_strain = Vector::Zero(vesicle.position.rows());
-    if (has_varying_properties(one)) vesicle.material = initial_material(one);
+    if (varies_or_pumps(one)) vesicle.material = initial_material(one);
     std::optional<Undulations>& undulations = model.vesicles[start.vesicles.size() - 1].undulations;
     if (undulations) undulations = with_rest_area(*undulations, size_of(vesicle.position).area);
   }

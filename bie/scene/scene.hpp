@@ -277,17 +277,16 @@ inline bool takes_stored_potential(const Scene& scene) {
   return scene.electric && scene.electric->initial_potential == InitialPotential::file;
 }
 
-/// Does a membrane have spatially varying properties or a pump?
 inline bool has_varying_properties(const MembraneScene& membrane) {
   return membrane.varying_capacitance || membrane.varying_conductance || membrane.varying_bending ||
-         membrane.varying_curvature || membrane.pump;
+         membrane.varying_curvature;
 }
 
-/// Does any vesicle have such a membrane?
-inline bool has_varying_properties(const Scene& scene) {
-  return has_varying_properties(scene.membrane) || std::ranges::any_of(scene.vesicles, [](const VesicleScene& vesicle) {
-           return has_varying_properties(vesicle.membrane);
-         });
+/// Does any membrane have spatially varying properties or a pump?
+inline bool varies_or_pumps(const Scene& scene) {
+  const auto holds = [](const MembraneScene& membrane) { return has_varying_properties(membrane) || membrane.pump; };
+  return holds(scene.membrane) ||
+         std::ranges::any_of(scene.vesicles, [&](const VesicleScene& vesicle) { return holds(vesicle.membrane); });
 }
 
 }  // namespace vehd

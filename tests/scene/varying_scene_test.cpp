@@ -173,7 +173,7 @@ BOOST_AUTO_TEST_CASE(vesicles_have_places_of_their_own) {
   BOOST_TEST(scene.vesicles[0].membrane.pump.has_value());
   BOOST_TEST(!scene.vesicles[1].membrane.pump.has_value());
   BOOST_TEST((parsed(vehd::effective_scene(scene)) == scene));
-  BOOST_TEST(vehd::has_varying_properties(scene));
+  BOOST_TEST(vehd::varies_or_pumps(scene));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -52,8 +52,9 @@ double elastic_energy(const Membrane& membrane);
 /// m enters truncated to degree p, as H in bending_force.
 /// @return  values on the upsampled grid, [n_points x 3]
 /// Accuracy: spectral; along smooth displacements the slope of E to 1e-5
-/// (tests/physics/varying_membrane_elasticity_test.cpp) Source: first variation of Helfrich's energy with coefficients
-/// that are functions of the material point; for uniform coefficients paper Eq. (2)
+///           (tests/physics/varying_membrane_elasticity_test.cpp)
+/// Source: first variation of Helfrich's energy with coefficients that are functions of the material point; for uniform
+/// coefficients paper Eq. (2)
 Matrix elastic_force(const Membrane& membrane);
 
 EffectRow bending_row();
