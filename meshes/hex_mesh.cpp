@@ -114,7 +114,6 @@ bool cells_have_to_be_relaxed(const FrozenShape& shape, const BlockMeshOptions& 
 }
 
 HexMesh make_block_mesh(const FrozenShape& shape, const BlockMeshOptions& options) {
-  require_options(options);
   return make_block_mesh(shape, options, best_axes(shape));
 }
 

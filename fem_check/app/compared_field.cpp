@@ -9,6 +9,11 @@
 
 namespace vehd::fem_check {
 
+const char* name_of(Reference reference) {
+  if (reference == Reference::elements) return "elements";
+  return reference == Reference::constraint ? "constraint" : "boundary integrals";
+}
+
 double mean_size(const Eigen::MatrixXd& coefficients, const SurfacePoints& points) {
   if (coefficients.size() == 0) return 0.0;
   const Eigen::MatrixXd values = SurfaceSeries(coefficients)(points);

@@ -69,7 +69,7 @@ double degree_tail(double change, const Degrees& degrees) {
   return std::max(1.0, degrees.judged < degrees.other ? of_lower : of_lower - 1.0);
 }
 
-/// Field of a level in the form required by the compared; empty if the level does not have it.
+/// Field of a level in the form in which it is compared; empty if the level does not have it.
 Eigen::MatrixXd values_of(const ComparedField& compared, const Level& level) {
   const FieldValues& fields = compared.is_sample ? level.samples : level.surface;
   const auto found = fields.find(compared.values);
@@ -147,11 +147,6 @@ void compare_with_levels(const ComparedField& compared, const LevelSequence& seq
 const char* name_of(Verdict verdict) {
   if (verdict == Verdict::agree) return "agree";
   return verdict == Verdict::disagree ? "disagree" : "undecided";
-}
-
-const char* name_of(Reference reference) {
-  if (reference == Reference::elements) return "elements";
-  return reference == Reference::constraint ? "constraint" : "boundary integrals";
 }
 
 std::optional<Convergence> convergence_of(const LevelSequence& sequence, const std::string& field) {

@@ -297,7 +297,7 @@ BOOST_AUTO_TEST_CASE(damage_of_free_charges_is_noticed) {
 
 // Both methods take spatially varying C_m, G_m and J_p from the snapshot. For pores the boundary integrals take the
 // state of the pores, the elements G_m.
-BOOST_AUTO_TEST_CASE(damage_of_pores_is_noticed_and_that_of_places_is_not) {
+BOOST_AUTO_TEST_CASE(damage_of_pores_is_noticed_and_that_of_varying_properties_is_not) {
   const std::string membrane =
       tilted +
       "[membrane]\nmobile = false\ncapacitance = 0.5\nconductance = 0.3\n"

@@ -8,7 +8,7 @@
 using namespace vehd::fem_check;
 using namespace vehd::fem_check::testing;
 
-BOOST_AUTO_TEST_SUITE(fields)
+BOOST_AUTO_TEST_SUITE(compared_fields)
 
 namespace {
 
