@@ -45,4 +45,21 @@ inline MembraneMaterial same_everywhere(const VesicleModel& vesicle, int order, 
   return material;
 }
 
+/// After steps of 0.05: a uniform membrane, and the same one with a material that could vary.
+struct UniformAndVarying {
+  State uniform, varying;
+  MembraneMaterial material;  ///< at the start
+
+  UniformAndVarying(const Model& model, int time_order, const Matrix& position, int n_steps) {
+    constexpr double kDt = 0.05;
+    const int order = order_of(position.rows());
+    NumericalSettings settings = solved_to_rounding(order);
+    settings.time_order = time_order;
+    const Discretisation discretisation(settings, find_symmetry(model, at_rest(position)));
+    uniform = run(model, discretisation, start(model, discretisation, position, kDt), kDt, n_steps);
+    material = same_everywhere(model.vesicles[0], order, 0.0);
+    varying = run(model, discretisation, varying_start(model, discretisation, position, kDt, material), kDt, n_steps);
+  }
+};
+
 }  // namespace vehd::testing

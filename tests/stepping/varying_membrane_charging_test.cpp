@@ -147,19 +147,10 @@ BOOST_AUTO_TEST_CASE(no_net_current_crosses_a_membrane_at_rest) {
 }
 
 BOOST_AUTO_TEST_CASE(a_uniform_membrane_moves_as_it_does_without_variation) {
-  constexpr int kOrder = 8;
-  const Model model = field_model();
-  const Matrix position = prolate(kOrder);
   for (const int time_order : {1, 3}) {
-    NumericalSettings settings = solved_to_rounding(kOrder);
-    settings.time_order = time_order;
-    const Discretisation discretisation(settings, find_symmetry(model, at_rest(position)));
-    const State uniform = run(model, discretisation, start(model, discretisation, position, 0.05), 0.05, 4);
-    const MembraneMaterial material = same_everywhere(model.vesicles[0], kOrder, 0.0);
-    const State varying =
-        run(model, discretisation, varying_start(model, discretisation, position, 0.05, material), 0.05, 4);
-    BOOST_TEST(largest_difference(varying, uniform) < 1e-8, time_order);
-    BOOST_TEST(max_difference(varying.vesicles[0].material.conductance, material.conductance) < 1e-12);
+    const UniformAndVarying after(field_model(), time_order, prolate(8), 4);
+    BOOST_TEST(largest_difference(after.varying, after.uniform) < 1e-8, time_order);
+    BOOST_TEST(max_difference(after.varying.vesicles[0].material.conductance, after.material.conductance) < 1e-12);
   }
 }
 

@@ -99,22 +99,14 @@ BOOST_AUTO_TEST_CASE(steady_charges_do_not_change) {
 }
 
 BOOST_AUTO_TEST_CASE(a_uniform_membrane_relaxes_as_without_variation) {
-  constexpr int kOrder = 8;
   Model model = relaxing_model();
   model.mobile = true;
   model.vesicles[0].pump.reset();
-  const Matrix position = prolate(kOrder);
   for (const bool porates : {false, true}) {
     if (porates) model.vesicles[0].reaction = pores();
-    NumericalSettings settings = solved_to_rounding(kOrder);
-    settings.time_order = 2;
-    const Discretisation discretisation(settings, find_symmetry(model, at_rest(position)));
-    const State uniform = run(model, discretisation, start(model, discretisation, position, 0.05), 0.05, 3);
-    const MembraneMaterial material = same_everywhere(model.vesicles[0], kOrder, 0.0);
-    const State varying =
-        run(model, discretisation, varying_start(model, discretisation, position, 0.05, material), 0.05, 3);
-    BOOST_TEST(largest_difference(varying, uniform) < 1e-8, porates);
-    BOOST_TEST(max_difference(varying.vesicles[0].free_charge, uniform.vesicles[0].free_charge) < 1e-8);
+    const UniformAndVarying after(model, 2, prolate(8), 3);
+    BOOST_TEST(largest_difference(after.varying, after.uniform) < 1e-8, porates);
+    BOOST_TEST(max_difference(after.varying.vesicles[0].free_charge, after.uniform.vesicles[0].free_charge) < 1e-8);
   }
 }
 
